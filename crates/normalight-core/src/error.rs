@@ -1,0 +1,113 @@
+use thiserror::Error;
+
+/// What can be wrong with values that enter this crate.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CoreError {
+    /// Photometric stereo needs at least [`crate::MIN_IMAGES`] photographs.
+    #[error("{found} image(s) found, at least {expected} are needed")]
+    TooFewImages {
+        /// Number of images given.
+        found: usize,
+        /// Smallest number that works.
+        expected: usize,
+    },
+    /// One image differs in size from the first.
+    #[error(
+        "{name}: {found_width}x{found_height} pixels, but the first image has {expected_width}x{expected_height}"
+    )]
+    SizeMismatch {
+        /// The image's file name.
+        name: String,
+        /// Its width.
+        found_width: usize,
+        /// Its height.
+        found_height: usize,
+        /// Width of the first image.
+        expected_width: usize,
+        /// Height of the first image.
+        expected_height: usize,
+    },
+    /// An image holds more or fewer samples than its size needs.
+    #[error("{name}: {found} samples, but {expected} are expected for its size")]
+    SampleCount {
+        /// The image's file name.
+        name: String,
+        /// Number of samples given.
+        found: usize,
+        /// width * height * channels.
+        expected: usize,
+    },
+    /// Images too small to estimate anything from.
+    #[error("{name}: {width}x{height} pixels, at least {expected}x{expected} are needed")]
+    TooSmall {
+        /// The image's file name.
+        name: String,
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+        /// Smallest side that works.
+        expected: usize,
+    },
+    /// A sample is NaN or infinite.
+    #[error("{name}: sample {index} is {value}, finite numbers are expected")]
+    NotFinite {
+        /// The image's file name.
+        name: String,
+        /// Position of the sample.
+        index: usize,
+        /// Its value.
+        value: f32,
+    },
+    /// No image has any light inside the mask.
+    #[error("all {images} images are black inside the mask: nothing to estimate from")]
+    AllBlack {
+        /// Number of images.
+        images: usize,
+    },
+    /// The mask marks no pixel.
+    #[error("{name}: the mask is empty, at least one pixel must belong to the object")]
+    EmptyMask {
+        /// Where the mask came from.
+        name: String,
+    },
+    /// The mask has another size than the images.
+    #[error(
+        "{name}: the mask has {found_width}x{found_height} pixels, the images have {expected_width}x{expected_height}"
+    )]
+    MaskSize {
+        /// Where the mask came from.
+        name: String,
+        /// Width of the mask.
+        found_width: usize,
+        /// Height of the mask.
+        found_height: usize,
+        /// Width of the images.
+        expected_width: usize,
+        /// Height of the images.
+        expected_height: usize,
+    },
+    /// The number of lights differs from the number of images.
+    #[error("{found} lights for {expected} images: one light per image is expected")]
+    LightCount {
+        /// Number of lights.
+        found: usize,
+        /// Number of images.
+        expected: usize,
+    },
+    /// Two maps that must have one size do not.
+    #[error(
+        "maps of different sizes: {found_width}x{found_height} against {expected_width}x{expected_height}"
+    )]
+    MapSize {
+        /// Width of the second map.
+        found_width: usize,
+        /// Height of the second map.
+        found_height: usize,
+        /// Width of the first map.
+        expected_width: usize,
+        /// Height of the first map.
+        expected_height: usize,
+    },
+}

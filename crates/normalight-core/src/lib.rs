@@ -1,0 +1,34 @@
+//! The words of photometric stereo, in plain Rust: no networks, no files, no clock.
+//!
+//! Axes everywhere: x right, y up, z to the camera. Angles are radians. A light's direction points
+//! from the object to the light.
+#![deny(missing_docs)]
+
+mod angles;
+mod bins;
+mod error;
+mod light;
+mod mask;
+mod metrics;
+mod normal_map;
+mod rect;
+mod refit;
+mod stack;
+mod transfer;
+mod woodham;
+
+pub use angles::{angle_between, direction_from_angles, direction_to_angles};
+pub use bins::{Decoding, IntensityBins, IntensitySpacing, LightBins, LightClasses};
+pub use error::CoreError;
+pub use glam::Vec3;
+pub use light::Light;
+pub use mask::{Mask, MaskSource};
+pub use metrics::{
+    NormalError, intensity_error, mean_light_error, normal_error, normal_error_between,
+};
+pub use normal_map::NormalMap;
+pub use rect::Rect;
+pub use refit::{RefitSettings, albedo_map, refit_lights};
+pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage};
+pub use transfer::Transfer;
+pub use woodham::{least_squares_normals, luminance};

@@ -1,0 +1,161 @@
+use normalight_core::CoreError;
+use thiserror::Error;
+
+/// What can be wrong with files that are read or written; each names the file.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum IoError {
+    /// A file or folder cannot be read.
+    #[error("{name}: cannot be read: {source}")]
+    Read {
+        /// Path of the file or folder.
+        name: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file or folder cannot be written.
+    #[error("{name}: cannot be written: {source}")]
+    Write {
+        /// Path of the file or folder.
+        name: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file was given that is no image by its content or its extension.
+    #[error("{name}: found {found}, expected an image ({expected})")]
+    NotAnImage {
+        /// The file.
+        name: String,
+        /// What it looks like instead.
+        found: String,
+        /// The formats that are read.
+        expected: &'static str,
+    },
+    /// The extension says one format, the content is another.
+    #[error("{name}: the content is {found}, but its extension says {expected}; rename the file")]
+    WrongExtension {
+        /// The file.
+        name: String,
+        /// Format of the content.
+        found: String,
+        /// Format that the extension promises.
+        expected: &'static str,
+    },
+    /// The file is of a known format but damaged, cut off, or of a variant that is not read.
+    #[error("{name}: expected a complete {format} image, but: {reason}")]
+    Decode {
+        /// The file.
+        name: String,
+        /// Its format.
+        format: &'static str,
+        /// What the decoder found.
+        reason: String,
+    },
+    /// An image has more pixels than [`crate::MAX_PIXELS`].
+    #[error("{name}: {width}x{height} pixels, at most {limit} pixels are read")]
+    TooManyPixels {
+        /// The file.
+        name: String,
+        /// Width according to its header.
+        width: u32,
+        /// Height according to its header.
+        height: u32,
+        /// The limit, in pixels.
+        limit: u64,
+    },
+    /// A file is larger than its limit.
+    #[error("{name}: {found} bytes, at most {limit} are read")]
+    FileTooLarge {
+        /// The file.
+        name: String,
+        /// Its size in bytes.
+        found: u64,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// All images together need more memory than [`crate::MAX_STACK_BYTES`].
+    #[error(
+        "{name}: {images} images of this size need {found} bytes, at most {limit} are kept; use fewer or smaller images"
+    )]
+    StackTooLarge {
+        /// The first image.
+        name: String,
+        /// Number of images.
+        images: usize,
+        /// Bytes of all samples.
+        found: u64,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// Too few images were found in a place, or too few were asked for.
+    #[error("{name}: {found} image(s) found, at least {expected} are needed")]
+    TooFewImages {
+        /// The folder or list, or "the given files".
+        name: String,
+        /// Number of images.
+        found: usize,
+        /// Smallest number that works.
+        expected: usize,
+    },
+    /// A list names a file that is not there.
+    #[error("{list}: names {entry}, which is not among the files beside it")]
+    ListedFileMissing {
+        /// The list file.
+        list: String,
+        /// The missing file.
+        entry: String,
+    },
+    /// A line of a list is not a file name, or its count disagrees.
+    #[error("{list}: found {found}, expected {expected}")]
+    ListFormat {
+        /// The list file.
+        list: String,
+        /// What it says.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A light file has more or fewer lights than there are images.
+    #[error("{name}: {found} lights, but {expected} are expected")]
+    LightCount {
+        /// The light file.
+        name: String,
+        /// Number of lights in it.
+        found: usize,
+        /// Number of images.
+        expected: usize,
+    },
+    /// A line of a light file cannot be understood, or its values make no light.
+    #[error("{name}, line {line}: found {found:?}, expected {expected}")]
+    LightFormat {
+        /// The light file.
+        name: String,
+        /// Line number from 1; 0 when the file as a whole is meant.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A file of true normals is not as expected.
+    #[error("{name}: found {found}, expected {expected}")]
+    TruthFormat {
+        /// The file.
+        name: String,
+        /// What it holds.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// An output cannot be encoded.
+    #[error("{name}: cannot be encoded: {reason}")]
+    Encode {
+        /// Kind of output.
+        name: &'static str,
+        /// What the encoder said.
+        reason: String,
+    },
+    /// The images or the mask do not fit each other.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+}

@@ -1,0 +1,131 @@
+//! Normal and albedo maps as files.
+use crate::IoError;
+use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
+use normalight_core::{CoreError, Mask, NormalMap, Transfer, Vec3};
+use npyz::WriterBuilder;
+use std::io::Cursor;
+
+/// Which way green points in an exported normal map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum NormalFormat {
+    /// Green is up, as everywhere in this program.
+    #[default]
+    OpenGl,
+    /// Green is down.
+    DirectX,
+}
+
+/// A normal map as 16-bit RGB PNG: `(n + 1) / 2 * 65535`, black outside the object.
+///
+/// # Errors
+/// [`IoError::Encode`] for a map that PNG cannot hold (no pixels).
+pub fn normals_png(map: &NormalMap, format: NormalFormat) -> Result<Vec<u8>, IoError> {
+    let sign = match format {
+        NormalFormat::OpenGl => 1.0,
+        NormalFormat::DirectX => -1.0,
+    };
+    let code = |value: f32| ((value + 1.0) / 2.0 * 65_535.0).round() as u16;
+    let samples: Vec<u16> = map
+        .normals()
+        .iter()
+        .flat_map(|&normal| match normal {
+            Vec3::ZERO => [0; 3],
+            Vec3 { x, y, z } => [code(x), code(sign * y), code(z)],
+        })
+        .collect();
+    let image =
+        ImageBuffer::<Rgb<u16>, _>::from_raw(map.width() as u32, map.height() as u32, samples);
+    png("normal map", image.map(DynamicImage::ImageRgb16))
+}
+
+/// A normal map as NumPy array: float32 `[height, width, 3]`, y up, zero outside the object.
+///
+/// # Errors
+/// None that memory can cause; [`IoError::Encode`] keeps the signature honest.
+pub fn normals_npy(map: &NormalMap) -> Result<Vec<u8>, IoError> {
+    let failed = |error: std::io::Error| IoError::Encode {
+        name: "normal map",
+        reason: error.to_string(),
+    };
+    let mut bytes = Vec::with_capacity(12 * map.normals().len() + 128);
+    let mut writer = npyz::WriteOptions::<f32>::new()
+        .default_dtype()
+        .shape(&[map.height() as u64, map.width() as u64, 3])
+        .writer(&mut bytes)
+        .begin_nd()
+        .map_err(failed)?;
+    let values = map.normals().iter().flat_map(|normal| normal.to_array());
+    writer.extend(values).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// An albedo map as 8-bit sRGB PNG, so that it looks right in every viewer.
+///
+/// Albedo has no absolute scale: its 99th percentile (of the brightest channel, over pixels above
+/// zero) becomes white.
+///
+/// # Shapes
+/// `planes`: `[3, height, width]`, linear, not negative; zero outside the object.
+///
+/// # Errors
+/// [`CoreError::SampleCount`] when `planes` has another size; [`IoError::Encode`].
+pub fn albedo_png(planes: &[f32], width: usize, height: usize) -> Result<Vec<u8>, IoError> {
+    let area = width * height;
+    if planes.len() != 3 * area {
+        return Err(IoError::Core(CoreError::SampleCount {
+            name: "albedo map".to_owned(),
+            found: planes.len(),
+            expected: 3 * area,
+        }));
+    }
+    let pixel = |index: usize| {
+        [
+            planes[index],
+            planes[area + index],
+            planes[2 * area + index],
+        ]
+    };
+    let mut brightest: Vec<f32> = (0..area)
+        .map(|index| pixel(index).into_iter().fold(0.0, f32::max))
+        .filter(|&value| value > 0.0 && value.is_finite())
+        .collect();
+    brightest.sort_by(f32::total_cmp);
+    let white = brightest
+        .get(brightest.len() * 99 / 100)
+        .copied()
+        .unwrap_or(1.0);
+    let samples: Vec<u8> = (0..area)
+        .flat_map(pixel)
+        .map(|value| (Transfer::Srgb.encode((value / white).clamp(0.0, 1.0)) * 255.0).round() as u8)
+        .collect();
+    let image = ImageBuffer::<Rgb<u8>, _>::from_raw(width as u32, height as u32, samples);
+    png("albedo map", image.map(DynamicImage::ImageRgb8))
+}
+
+/// A mask as 8-bit grey PNG: 255 inside, 0 outside.
+///
+/// # Errors
+/// [`IoError::Encode`] for a mask that PNG cannot hold (no pixels).
+pub fn mask_png(mask: &Mask) -> Result<Vec<u8>, IoError> {
+    let samples = mask
+        .inside()
+        .iter()
+        .map(|&inside| if inside { 255 } else { 0 });
+    let image = ImageBuffer::<Luma<u8>, _>::from_raw(
+        mask.width() as u32,
+        mask.height() as u32,
+        samples.collect(),
+    );
+    png("mask", image.map(DynamicImage::ImageLuma8))
+}
+
+fn png(name: &'static str, image: Option<DynamicImage>) -> Result<Vec<u8>, IoError> {
+    let failed = |reason: String| IoError::Encode { name, reason };
+    let image = image.ok_or_else(|| failed("its size and its samples disagree".to_owned()))?;
+    let mut bytes = Cursor::new(Vec::new());
+    image
+        .write_to(&mut bytes, ImageFormat::Png)
+        .map_err(|error| failed(error.to_string()))?;
+    Ok(bytes.into_inner())
+}

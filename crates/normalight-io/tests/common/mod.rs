@@ -1,0 +1,52 @@
+//! Small pictures in every format, made by an independent encoder.
+#![allow(dead_code)]
+use image::{DynamicImage, ImageFormat};
+use normalight_io::NamedBytes;
+use std::io::Cursor;
+
+pub const FORMATS: [(&str, ImageFormat); 7] = [
+    ("a.png", ImageFormat::Png),
+    ("a.jpg", ImageFormat::Jpeg),
+    ("a.tif", ImageFormat::Tiff),
+    ("a.tga", ImageFormat::Tga),
+    ("a.bmp", ImageFormat::Bmp),
+    ("a.webp", ImageFormat::WebP),
+    ("a.exr", ImageFormat::OpenExr),
+];
+
+pub fn encode(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
+/// A smooth RGB picture, brighter to the lower right.
+pub fn rgb8(width: u32, height: u32) -> DynamicImage {
+    DynamicImage::ImageRgb8(image::RgbImage::from_fn(width, height, |x, y| {
+        image::Rgb([40 + 4 * x as u8, 50 + 4 * y as u8, 60 + 2 * (x + y) as u8])
+    }))
+}
+
+/// The picture as each format stores it best.
+pub fn sample(format: ImageFormat) -> Vec<u8> {
+    let image = rgb8(16, 12);
+    match format {
+        ImageFormat::OpenExr => encode(&DynamicImage::ImageRgb32F(image.to_rgb32f()), format),
+        _ => encode(&image, format),
+    }
+}
+
+pub fn file(name: &str, bytes: Vec<u8>) -> NamedBytes {
+    NamedBytes {
+        name: name.to_owned(),
+        bytes,
+    }
+}
+
+/// Three PNG photographs of the given size.
+pub fn three(width: u32, height: u32) -> Vec<NamedBytes> {
+    let bytes = encode(&rgb8(width, height), ImageFormat::Png);
+    ["1.png", "2.png", "10.png"]
+        .map(|name| file(name, bytes.clone()))
+        .to_vec()
+}

@@ -1,0 +1,107 @@
+//! Maps and the report as files.
+use normalight_core::{CoreError, Mask, NormalMap, Vec3};
+use normalight_io::{
+    ColorMode, IoError, NormalFormat, Report, StageSeconds, WeightHashes, albedo_png, decode_mask,
+    mask_png, normals_npy, normals_png,
+};
+
+fn map() -> NormalMap {
+    let normals = vec![
+        Vec3::X,
+        Vec3::Y,
+        Vec3::Z,
+        Vec3::ZERO,
+        -Vec3::Y,
+        Vec3::new(0.6, 0.0, 0.8),
+    ];
+    NormalMap::new(3, 2, normals)
+}
+
+#[test]
+fn normal_maps_are_16_bit() {
+    let decode = |format| image::load_from_memory(&normals_png(&map(), format).unwrap()).unwrap();
+    let opengl = decode(NormalFormat::OpenGl);
+    let directx = decode(NormalFormat::DirectX).into_rgb16();
+    assert_eq!(opengl.color(), image::ColorType::Rgb16);
+    let opengl = opengl.into_rgb16();
+    assert_eq!(opengl.get_pixel(0, 0).0, [65_535, 32_768, 32_768]);
+    assert_eq!(opengl.get_pixel(1, 0).0, [32_768, 65_535, 32_768]);
+    assert_eq!(opengl.get_pixel(0, 1).0, [0; 3]);
+    assert_eq!(directx.get_pixel(1, 0).0, [32_768, 0, 32_768]);
+    assert_eq!(directx.get_pixel(1, 1).0, [32_768, 65_535, 32_768]);
+}
+
+#[test]
+fn arrays_are_numpy() {
+    let bytes = normals_npy(&map()).unwrap();
+    assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
+    let file = npyz::NpyFile::new(&bytes[..]).unwrap();
+    assert_eq!(file.shape(), [2, 3, 3]);
+    assert_eq!(file.order(), npyz::Order::C);
+    let header = String::from_utf8_lossy(&bytes[..128]).into_owned();
+    assert!(header.contains("'<f4'"), "{header}");
+    let values: Vec<f32> = file.into_vec().unwrap();
+    assert_eq!(values[..6], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    assert_eq!(values[9..12], [0.0; 3]);
+}
+
+#[test]
+fn albedo_is_scaled_to_its_99th_percentile() {
+    // 200 pixels of 2, one far brighter, some outside.
+    let mut plane = vec![2.0; 200];
+    plane.extend([50.0, 0.0, 0.0, 0.0]);
+    let mut planes = plane.clone();
+    planes.extend(plane.iter().map(|value| value * 0.2155));
+    planes.extend(vec![0.0; 204]);
+    let image = image::load_from_memory(&albedo_png(&planes, 204, 1).unwrap()).unwrap();
+    assert_eq!(image.color(), image::ColorType::Rgb8);
+    let image = image.into_rgb8();
+    assert_eq!(image.get_pixel(0, 0).0, [255, 128, 0]);
+    assert_eq!(image.get_pixel(200, 0).0, [255, 255, 0]);
+    assert_eq!(image.get_pixel(203, 0).0, [0; 3]);
+    let error = albedo_png(&planes, 203, 1).unwrap_err();
+    assert!(matches!(
+        error,
+        IoError::Core(CoreError::SampleCount { .. })
+    ));
+    assert!(albedo_png(&[0.0; 12], 2, 2).is_ok());
+}
+
+#[test]
+fn masks_round_trip() {
+    let mask = Mask::new(3, 2, vec![true, false, true, false, false, true]);
+    assert_eq!(
+        decode_mask("mask.png", &mask_png(&mask).unwrap()).unwrap(),
+        mask
+    );
+    assert_eq!(ColorMode::default(), ColorMode::Auto);
+}
+
+#[test]
+fn reports_are_json() {
+    let report = Report {
+        version: "0.1.0".into(),
+        inputs: vec!["cat".into()],
+        images: vec!["001.png".into()],
+        width: 3,
+        height: 2,
+        mask: "mask.png".into(),
+        color: "linear".into(),
+        device: "cpu".into(),
+        lights_from: "network".into(),
+        weights: WeightHashes {
+            light: Some("ab".into()),
+            normal: None,
+        },
+        settings: serde_json::json!({"tile": 512}),
+        seconds: ["read", "lights"]
+            .map(|stage| StageSeconds {
+                stage: stage.into(),
+                seconds: 0.5,
+            })
+            .into(),
+    };
+    let bytes = report.to_json().unwrap();
+    assert!(bytes.ends_with(b"}\n"));
+    assert_eq!(serde_json::from_slice::<Report>(&bytes).unwrap(), report);
+}

@@ -1,0 +1,209 @@
+//! Whole stacks: what is found, what is refused.
+mod common;
+
+use common::{encode, file, rgb8, three};
+use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
+use normalight_core::{CoreError, MaskSource};
+use normalight_io::{
+    IoError, MaskChoice, NamedBytes, StackInput, StackOptions, folder, read_stack,
+};
+
+fn read(files: Vec<NamedBytes>) -> Result<StackInput, IoError> {
+    read_stack(files, StackOptions::default())
+}
+
+fn mask_png(width: u32, height: u32, inside: impl Fn(u32, u32) -> bool) -> Vec<u8> {
+    let image = RgbImage::from_fn(width, height, |x, y| {
+        image::Rgb([255 * u8::from(inside(x, y)); 3])
+    });
+    encode(&DynamicImage::ImageRgb8(image), ImageFormat::Png)
+}
+
+#[test]
+fn order_and_mask_sources() {
+    let mut files = three(16, 12);
+    files.reverse();
+    let input = read(files.clone()).unwrap();
+    let names: Vec<_> = input
+        .stack
+        .images()
+        .iter()
+        .map(|image| image.name.as_str())
+        .collect();
+    assert_eq!(names, ["1.png", "2.png", "10.png"]);
+    assert_eq!((input.mask_source, input.found), (MaskSource::Guessed, 3));
+
+    let transparent = {
+        let mut image = rgb8(16, 12).into_rgba8();
+        image.get_pixel_mut(0, 0).0[3] = 0;
+        encode(&DynamicImage::ImageRgba8(image), ImageFormat::Png)
+    };
+    files[2].bytes = transparent;
+    let input = read(files.clone()).unwrap();
+    assert_eq!(
+        (input.mask_source, input.mask.count()),
+        (MaskSource::Alpha, 16 * 12 - 1)
+    );
+
+    files.push(file("obj/Mask.png", mask_png(16, 12, |x, _| x > 3)));
+    let input = read(files.clone()).unwrap();
+    assert_eq!(input.mask_source, MaskSource::File("obj/Mask.png".into()));
+    assert_eq!(input.mask.count(), 12 * 12);
+
+    let mut options = StackOptions {
+        mask: MaskChoice::WholeFrame,
+        ..StackOptions::default()
+    };
+    let input = read_stack(files.clone(), options.clone()).unwrap();
+    assert_eq!(
+        (input.mask_source, input.mask.count()),
+        (MaskSource::WholeFrame, 192)
+    );
+    options.mask = MaskChoice::File(file("mine.png", mask_png(16, 12, |x, y| x + y == 0)));
+    let input = read_stack(files, options).unwrap();
+    assert_eq!(
+        (input.mask_source, input.mask.count()),
+        (MaskSource::File("mine.png".into()), 1)
+    );
+}
+
+#[test]
+fn lists_and_subsets() {
+    let mut files = three(16, 12);
+    files.push(file("4.png", files[0].bytes.clone()));
+    files.push(file("names.txt", b"10.png\n1.png\n4.png\n2.png\n".to_vec()));
+    let options = StackOptions {
+        images: Some(3),
+        ..StackOptions::default()
+    };
+    let input = read_stack(files.clone(), options).unwrap();
+    let names: Vec<_> = input
+        .stack
+        .images()
+        .iter()
+        .map(|image| image.name.as_str())
+        .collect();
+    assert_eq!(
+        (names, input.picked, input.found),
+        (vec!["10.png", "1.png", "4.png"], vec![0, 1, 2], 4)
+    );
+    let options = StackOptions {
+        images: Some(2),
+        ..StackOptions::default()
+    };
+    let error = read_stack(files.clone(), options).unwrap_err();
+    assert!(matches!(&error, IoError::TooFewImages { name, found: 2, .. } if name == "names.txt"));
+    files.last_mut().unwrap().bytes = b"10.png\nmissing.png".to_vec();
+    let error = read(files).unwrap_err();
+    assert!(matches!(&error, IoError::ListedFileMissing { list, entry }
+        if list == "names.txt" && entry == "missing.png"));
+}
+
+#[test]
+fn bad_stacks_are_explained() {
+    assert!(matches!(
+        read(vec![]),
+        Err(IoError::TooFewImages { found: 0, .. })
+    ));
+    assert!(matches!(
+        read(three(16, 12)[..2].to_vec()),
+        Err(IoError::TooFewImages { found: 2, .. })
+    ));
+
+    let mut files = three(16, 12);
+    files[1].bytes = encode(&rgb8(12, 16), ImageFormat::Png);
+    let error = read(files).unwrap_err();
+    assert!(
+        matches!(&error, IoError::Core(CoreError::SizeMismatch { name, .. }) if name == "2.png")
+    );
+
+    assert!(matches!(
+        read(three(1, 1)),
+        Err(IoError::Core(CoreError::TooSmall { width: 1, .. }))
+    ));
+
+    let black = encode(
+        &DynamicImage::ImageRgb8(RgbImage::new(8, 8)),
+        ImageFormat::Png,
+    );
+    let files = ["1.png", "2.png", "3.png"].map(|name| file(name, black.clone()));
+    assert!(matches!(
+        read(files.to_vec()),
+        Err(IoError::Core(CoreError::AllBlack { images: 3 }))
+    ));
+
+    let mut files = three(16, 12);
+    files.push(file("mask.png", mask_png(16, 12, |_, _| false)));
+    let error = read(files.clone()).unwrap_err();
+    assert!(matches!(&error, IoError::Core(CoreError::EmptyMask { name }) if name == "mask.png"));
+    files[3].bytes = mask_png(12, 16, |_, _| true);
+    let error = read(files).unwrap_err();
+    assert!(
+        matches!(&error, IoError::Core(CoreError::MaskSize { name, .. }) if name == "mask.png")
+    );
+}
+
+#[test]
+fn nan_in_exr_is_refused() {
+    for bad in [f32::NAN, f32::INFINITY] {
+        let mut pixels = Rgb32FImage::from_pixel(8, 8, image::Rgb([0.5; 3]));
+        let good = encode(
+            &DynamicImage::ImageRgb32F(pixels.clone()),
+            ImageFormat::OpenExr,
+        );
+        pixels.get_pixel_mut(3, 3).0[1] = bad;
+        let exr = encode(&DynamicImage::ImageRgb32F(pixels), ImageFormat::OpenExr);
+        let files = [("1.exr", good.clone()), ("2.exr", exr), ("3.exr", good)];
+        let files = files.map(|(name, bytes)| file(name, bytes)).to_vec();
+        let error = read(files).unwrap_err();
+        assert!(
+            matches!(&error, IoError::Core(CoreError::NotFinite { name, .. }) if name == "2.exr")
+        );
+    }
+}
+
+#[test]
+fn folders_and_files() {
+    let place = tempfile::tempdir().unwrap();
+    let object = place.path().join("maskPNG");
+    let mut files = three(16, 12);
+    files.push(file("mask.png", mask_png(16, 12, |x, _| x > 3)));
+    files.push(file("notes.md", b"not an image".to_vec()));
+    folder::write_files(&object, &files).unwrap();
+    let input = folder::read(std::slice::from_ref(&object), StackOptions::default()).unwrap();
+    assert_eq!((input.found, input.mask.count()), (3, 144));
+
+    let paths = ["10.png", "1.png", "2.png"].map(|name| object.join(name));
+    let input = folder::read(&paths, StackOptions::default()).unwrap();
+    assert_eq!(input.stack.images()[2].name, "10.png");
+    assert_eq!(input.mask_source, MaskSource::Guessed);
+
+    let mut with_notes = paths.to_vec();
+    with_notes.push(object.join("notes.md"));
+    let error = folder::read(&with_notes, StackOptions::default()).unwrap_err();
+    assert!(matches!(&error, IoError::NotAnImage { name, .. } if name.ends_with("notes.md")));
+    let gone = place.path().join("gone");
+    let error = folder::read(&[gone], StackOptions::default()).unwrap_err();
+    assert!(matches!(&error, IoError::Read { name, .. } if name.ends_with("gone")));
+}
+
+#[test]
+fn outputs_appear_whole_or_not_at_all() {
+    let place = tempfile::tempdir().unwrap();
+    let target = place.path().join("a/b");
+    folder::write_files(&target, &[file("x.txt", b"one".to_vec())]).unwrap();
+    // The second name is refused: the first file must keep its old content, and nothing stay.
+    let files = [file("x.txt", b"two".to_vec()), file("../y.txt", vec![])];
+    assert!(matches!(
+        folder::write_files(&target, &files),
+        Err(IoError::Write { .. })
+    ));
+    assert_eq!(std::fs::read(target.join("x.txt")).unwrap(), b"one");
+    assert_eq!(std::fs::read_dir(&target).unwrap().count(), 1);
+    folder::write_files(&target, &files[..1]).unwrap();
+    assert_eq!(std::fs::read(target.join("x.txt")).unwrap(), b"two");
+    // A folder below a regular file can be made by nobody.
+    let below = target.join("x.txt/out");
+    let error = folder::write_files(&below, &files[..1]).unwrap_err();
+    assert!(matches!(&error, IoError::Write { name, .. } if name.ends_with("x.txt/out")));
+}

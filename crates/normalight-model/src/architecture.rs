@@ -1,0 +1,227 @@
+use crate::{LightGenotype, ModelError, NormalGenotype};
+use normalight_core::LightBins;
+use serde::{Deserialize, Serialize};
+
+/// Everything that decides the shape of one network; stored in its weights file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "network", rename_all = "snake_case")]
+pub enum Architecture {
+    /// A light calibration network.
+    Light(LightArchitecture),
+    /// A normal estimation network.
+    Normal(NormalArchitecture),
+}
+
+/// Light calibration: images and mask in, class scores of every light out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LightArchitecture {
+    /// Side of the square view of the object, in pixels.
+    pub input_size: usize,
+    /// The classes it speaks in.
+    pub bins: LightBins,
+    /// Its layers.
+    pub body: LightBody,
+}
+
+/// Layers of a light calibration network.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum LightBody {
+    /// Plain 3x3 convolutions.
+    Plain(PlainLight),
+    /// The paper's backbone with searched cells.
+    Cells(CellLight),
+}
+
+/// Five 3x3 convolutions (three of stride 2) per image, max over images, three more (two of stride
+/// 2) on own and fused features, two fully connected layers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlainLight {
+    /// Channels after the first, second and third stride.
+    pub widths: [usize; 3],
+    /// Units of the hidden fully connected layer.
+    pub hidden: usize,
+}
+
+/// The paper's light backbone: two convolutions, cells N R N R N, max over images, two
+/// convolutions, cells N R, two convolutions, two fully connected layers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellLight {
+    /// Base width C: channels of each node in the first cells.
+    pub width: usize,
+    /// Strides of the two stem convolutions.
+    pub stem_strides: [usize; 2],
+    /// Units of the hidden fully connected layer.
+    pub hidden: usize,
+    /// The cells.
+    pub genotype: LightGenotype,
+}
+
+/// Normal estimation: images and light directions in, unit normals out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NormalArchitecture {
+    /// Whether the mask is a seventh input channel.
+    pub mask_channel: bool,
+    /// Its layers.
+    pub body: NormalBody,
+}
+
+/// Layers of a normal estimation network.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum NormalBody {
+    /// Plain 3x3 convolutions.
+    Plain(PlainNormal),
+    /// The paper's backbone with searched cells.
+    Cells(CellNormal),
+}
+
+/// Seven 3x3 convolutions per image down to a quarter and up to half the size, max over images,
+/// four more up to full size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlainNormal {
+    /// Channels at full, half and quarter size.
+    pub widths: [usize; 3],
+    /// Channels of the last layer but one.
+    pub head: usize,
+}
+
+/// How feature maps grow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Upsampling {
+    /// Transposed 4x4 convolution of stride 2, as the paper draws it.
+    Transposed,
+    /// Nearest neighbour, then a 3x3 convolution: no checkerboard, cheaper gradients.
+    Nearest,
+}
+
+/// The paper's normal backbone: two convolutions, cells N R N R N, up, convolution, max over
+/// images, one or two convolutions, cells N N N, up, convolution, unit length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellNormal {
+    /// Base width C: channels of each node in the first cells.
+    pub width: usize,
+    /// Strides of the two stem convolutions: `[1, 1]` as published, `[1, 2]` for speed. With the
+    /// second, the convolution after the first upsampling doubles the size again.
+    pub stem_strides: [usize; 2],
+    /// How feature maps grow.
+    pub upsampling: Upsampling,
+    /// Convolutions between the max over images and the regressor cells: 2 as published, or 1.
+    pub fused_convolutions: usize,
+    /// The cells.
+    pub genotype: NormalGenotype,
+}
+
+impl LightArchitecture {
+    /// The plain baseline: 262,316 parameters, views of 64x64.
+    pub fn plain() -> Self {
+        Self {
+            input_size: 64,
+            bins: LightBins::relative(),
+            body: LightBody::Plain(PlainLight {
+                widths: [16, 32, 64],
+                hidden: 128,
+            }),
+        }
+    }
+
+    /// Checks ranges and cells.
+    ///
+    /// # Errors
+    /// [`ModelError::Architecture`].
+    pub fn validate(&self) -> Result<(), ModelError> {
+        within("input_size", self.input_size, 32, 512)?;
+        if !self.input_size.is_multiple_of(32) {
+            return Err(ModelError::Architecture {
+                what: "input_size".into(),
+                found: self.input_size.to_string(),
+                expected: "a multiple of 32".into(),
+            });
+        }
+        within("azimuth classes", self.bins.azimuth, 2, 1024)?;
+        within("elevation classes", self.bins.elevation, 2, 1024)?;
+        let intensity = self.bins.intensity;
+        within("intensity classes", intensity.count, 2, 1024)?;
+        if !(intensity.low > 0.0 && intensity.high > intensity.low && intensity.high.is_finite()) {
+            return Err(ModelError::Architecture {
+                what: "intensity range".into(),
+                found: format!("{} to {}", intensity.low, intensity.high),
+                expected: "0 < low < high".into(),
+            });
+        }
+        match &self.body {
+            LightBody::Plain(plain) => {
+                for width in plain.widths {
+                    within("width", width, 1, 1024)?;
+                }
+                within("hidden", plain.hidden, 1, 4096)
+            }
+            LightBody::Cells(cells) => {
+                within("width", cells.width, 1, 256)?;
+                within("hidden", cells.hidden, 1, 4096)?;
+                for stride in cells.stem_strides {
+                    within("stem stride", stride, 1, 2)?;
+                }
+                cells.genotype.validate()
+            }
+        }
+    }
+}
+
+impl NormalArchitecture {
+    /// The plain baseline: 126,515 parameters.
+    pub fn plain() -> Self {
+        Self {
+            mask_channel: false,
+            body: NormalBody::Plain(PlainNormal {
+                widths: [16, 32, 64],
+                head: 32,
+            }),
+        }
+    }
+
+    /// Number of input channels: image, light direction, perhaps the mask.
+    pub fn input_channels(&self) -> usize {
+        6 + usize::from(self.mask_channel)
+    }
+
+    /// Checks ranges and cells.
+    ///
+    /// # Errors
+    /// [`ModelError::Architecture`].
+    pub fn validate(&self) -> Result<(), ModelError> {
+        match &self.body {
+            NormalBody::Plain(plain) => {
+                for width in plain.widths {
+                    within("width", width, 1, 1024)?;
+                }
+                within("head", plain.head, 1, 1024)
+            }
+            NormalBody::Cells(cells) => {
+                within("width", cells.width, 1, 256)?;
+                within("fused_convolutions", cells.fused_convolutions, 1, 2)?;
+                within("first stem stride", cells.stem_strides[0], 1, 1)?;
+                within("second stem stride", cells.stem_strides[1], 1, 2)?;
+                cells.genotype.validate()
+            }
+        }
+    }
+}
+
+fn within(what: &str, found: usize, low: usize, high: usize) -> Result<(), ModelError> {
+    if (low..=high).contains(&found) {
+        return Ok(());
+    }
+    Err(ModelError::Architecture {
+        what: what.to_owned(),
+        found: found.to_string(),
+        expected: format!("{low} to {high}"),
+    })
+}

@@ -1,0 +1,38 @@
+//! The networks of Normalight and the way from photographs to lights and normals.
+//!
+//! No backend is chosen here: every entry point takes a Burn [`Device`](burn::tensor::Device).
+#![deny(missing_docs)]
+
+mod architecture;
+mod cell;
+mod defaults;
+mod error;
+mod estimator;
+mod genotype;
+mod layers;
+mod light_network;
+mod light_stage;
+mod light_view;
+mod normal_network;
+mod normal_stage;
+mod observer;
+mod operation;
+mod parameters;
+mod weights;
+
+pub use architecture::{
+    Architecture, CellLight, CellNormal, LightArchitecture, LightBody, NormalArchitecture,
+    NormalBody, PlainLight, PlainNormal, Upsampling,
+};
+pub use defaults::{default_light_weights, default_normal_weights, paper_genotypes};
+pub use error::ModelError;
+pub use estimator::{Estimate, EstimateSettings, Estimator};
+pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
+pub use light_network::LightNetwork;
+pub use light_stage::estimate_lights;
+pub use light_view::LightView;
+pub use normal_network::NormalNetwork;
+pub use normal_stage::estimate_normals;
+pub use observer::{Observer, Progress, Quiet, Stage, StageTimes};
+pub use parameters::{light_parameters, normal_parameters};
+pub use weights::Weights;

@@ -1,0 +1,216 @@
+use crate::cell::{CellLayer, CellRow, forward_row};
+use crate::layers::{convolution, leaky};
+use crate::{CellLight, LightArchitecture, LightBody, ModelError, PlainLight};
+use burn::module::Module;
+use burn::nn::conv::Conv2d;
+use burn::nn::{Linear, LinearConfig};
+use burn::tensor::{Device, Tensor};
+
+/// Image and mask.
+const INPUT_CHANNELS: usize = 4;
+
+/// The light calibration network: per-image features, their maximum over all images, and a
+/// classifier that sees both.
+#[derive(Module, Debug)]
+pub struct LightNetwork {
+    features: Features,
+    classifier: Classifier,
+    hidden: Linear,
+    output: Linear,
+}
+
+#[derive(Module, Debug)]
+enum Features {
+    Plain(PlainFeatures),
+    Cells(CellFeatures),
+}
+
+#[derive(Module, Debug)]
+struct PlainFeatures {
+    convolutions: Vec<Conv2d>,
+}
+
+#[derive(Module, Debug)]
+struct CellFeatures {
+    stem: Vec<Conv2d>,
+    cells: Vec<CellLayer>,
+}
+
+#[derive(Module, Debug)]
+enum Classifier {
+    Plain(PlainFeatures),
+    Cells(CellClassifier),
+}
+
+#[derive(Module, Debug)]
+struct CellClassifier {
+    before: Vec<Conv2d>,
+    cells: Vec<CellLayer>,
+    after: Vec<Conv2d>,
+}
+
+impl PlainFeatures {
+    fn forward(&self, input: Tensor<4>) -> Tensor<4> {
+        forward_leaky(&self.convolutions, input)
+    }
+}
+
+fn forward_leaky(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<4> {
+    convolutions
+        .iter()
+        .fold(input, |input, conv| leaky(conv.forward(input)))
+}
+
+impl LightNetwork {
+    /// Builds the network with random weights; `folded` builds the form that is stored, without
+    /// normalisation layers.
+    ///
+    /// # Errors
+    /// [`ModelError::Architecture`].
+    pub fn new(
+        architecture: &LightArchitecture,
+        folded: bool,
+        device: &Device,
+    ) -> Result<Self, ModelError> {
+        architecture.validate()?;
+        let (features, classifier, flat, hidden) = match &architecture.body {
+            LightBody::Plain(plain) => plain_layers(plain, architecture.input_size, device),
+            LightBody::Cells(cells) => cell_layers(cells, architecture.input_size, folded, device),
+        };
+        let bins = &architecture.bins;
+        let classes = bins.azimuth + bins.elevation + bins.intensity.count;
+        Ok(Self {
+            features,
+            classifier,
+            hidden: LinearConfig::new(flat, hidden).init(device),
+            output: LinearConfig::new(hidden, classes).init(device),
+        })
+    }
+
+    /// Features of every image by itself.
+    ///
+    /// # Shapes
+    /// - input: `[images, 4, size, size]`: RGB divided by the stack's mean, and the mask
+    /// - output: `[images, channels, height, width]`
+    pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
+        match &self.features {
+            Features::Plain(plain) => plain.forward(input),
+            Features::Cells(cells) => {
+                forward_row(&cells.cells, forward_leaky(&cells.stem, input))
+            }
+        }
+    }
+
+    /// Class scores (before softmax): azimuth, elevation and intensity side by side.
+    ///
+    /// # Shapes
+    /// - own: `[images, channels, height, width]`
+    /// - fused: the maximum over the images of one stack, repeated for each: the same shape
+    /// - output: `[images, classes]`
+    pub fn classify(&self, own: Tensor<4>, fused: Tensor<4>) -> Tensor<2> {
+        let both = Tensor::cat(vec![own, fused], 1);
+        let last = match &self.classifier {
+            Classifier::Plain(plain) => plain.forward(both),
+            Classifier::Cells(cells) => {
+                let row = forward_row(&cells.cells, forward_leaky(&cells.before, both));
+                forward_leaky(&cells.after, row)
+            }
+        };
+        let hidden = leaky(self.hidden.forward(last.flatten::<2>(1, 3)));
+        self.output.forward(hidden)
+    }
+
+    /// The same function with every normalisation layer folded into its convolution.
+    pub fn folded(&self) -> Self {
+        let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
+        let mut network = self.clone();
+        if let Features::Cells(features) = &mut network.features {
+            features.cells = fold(&features.cells);
+        }
+        if let Classifier::Cells(classifier) = &mut network.classifier {
+            classifier.cells = fold(&classifier.cells);
+        }
+        network
+    }
+}
+
+fn plain_layers(
+    plain: &PlainLight,
+    input_size: usize,
+    device: &Device,
+) -> (Features, Classifier, usize, usize) {
+    let [a, b, c] = plain.widths;
+    let features = [
+        ([INPUT_CHANNELS, a], 2),
+        ([a, b], 2),
+        ([b, b], 1),
+        ([b, c], 2),
+        ([c, c], 1),
+    ];
+    let classifier = [([2 * c, c], 1), ([c, c], 2), ([c, c], 2)];
+    let build = |layers: &[([usize; 2], usize)]| PlainFeatures {
+        convolutions: layers
+            .iter()
+            .map(|&(channels, stride)| convolution(channels, 3, stride, device))
+            .collect(),
+    };
+    let side = input_size / 32;
+    (
+        Features::Plain(build(&features)),
+        Classifier::Plain(build(&classifier)),
+        c * side * side,
+        plain.hidden,
+    )
+}
+
+fn cell_layers(
+    cells: &CellLight,
+    input_size: usize,
+    folded: bool,
+    device: &Device,
+) -> (Features, Classifier, usize, usize) {
+    let width = cells.width;
+    let genotype = &cells.genotype;
+    let stem_channels = 3 * width;
+    let stem = vec![
+        convolution([INPUT_CHANNELS, 2 * width], 3, cells.stem_strides[0], device),
+        convolution([2 * width, stem_channels], 3, cells.stem_strides[1], device),
+    ];
+    let mut row = CellRow::new(stem_channels, width, folded, device);
+    let features = vec![
+        row.normal(&genotype.feature_normal),
+        row.reduction(&genotype.feature_reduction),
+        row.normal(&genotype.feature_normal),
+        row.reduction(&genotype.feature_reduction),
+        row.normal(&genotype.feature_normal),
+    ];
+    let before = vec![
+        convolution([2 * row.last, 4 * width], 3, 1, device),
+        convolution([4 * width, stem_channels], 3, 1, device),
+    ];
+    let mut classifier_row = CellRow::new(stem_channels, width, folded, device);
+    let classifier = vec![
+        classifier_row.normal(&genotype.classifier_normal),
+        classifier_row.reduction(&genotype.classifier_reduction),
+    ];
+    let after = vec![
+        convolution([classifier_row.last, 4 * width], 3, 2, device),
+        convolution([4 * width, 4 * width], 3, 1, device),
+    ];
+    // Two reductions in the features, one in the classifier, one stride after it.
+    let stem_stride: usize = cells.stem_strides.iter().product();
+    let side = (input_size / stem_stride).div_ceil(16);
+    (
+        Features::Cells(CellFeatures {
+            stem,
+            cells: features,
+        }),
+        Classifier::Cells(CellClassifier {
+            before,
+            cells: classifier,
+            after,
+        }),
+        4 * width * side * side,
+        cells.hidden,
+    )
+}

@@ -1,0 +1,217 @@
+use crate::cell::{CellLayer, CellRow, forward_row};
+use crate::layers::{convolution, doubled, leaky};
+use crate::{CellNormal, ModelError, NormalArchitecture, NormalBody, PlainNormal, Upsampling};
+use burn::module::Module;
+use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
+use burn::tensor::{Device, Tensor};
+
+/// The normal estimation network: per-image features, their maximum over all images, and a
+/// regressor of unit normals.
+#[derive(Module, Debug)]
+pub struct NormalNetwork {
+    body: Body,
+}
+
+#[derive(Module, Debug)]
+enum Body {
+    Plain(PlainBody),
+    Cells(CellBody),
+}
+
+/// Convolutions of the plain network; upsampling happens where the forward pass says.
+#[derive(Module, Debug)]
+struct PlainBody {
+    down: Vec<Conv2d>,
+    up: Vec<Conv2d>,
+    fused: Vec<Conv2d>,
+    head: Conv2d,
+    output: Conv2d,
+}
+
+#[derive(Module, Debug)]
+struct CellBody {
+    stem: Vec<Conv2d>,
+    features: Vec<CellLayer>,
+    feature_up: UpLayer,
+    feature_conv: Conv2d,
+    /// Whether `feature_conv` doubles the size once more.
+    second_up: bool,
+    fused: Vec<Conv2d>,
+    regressor: Vec<CellLayer>,
+    regressor_up: UpLayer,
+    output: Conv2d,
+}
+
+/// Doubles the size and changes the width.
+#[derive(Module, Debug)]
+enum UpLayer {
+    Transposed(ConvTranspose2d),
+    Nearest(Conv2d),
+}
+
+impl UpLayer {
+    fn new(channels: [usize; 2], upsampling: Upsampling, device: &Device) -> Self {
+        match upsampling {
+            Upsampling::Transposed => Self::Transposed(
+                ConvTranspose2dConfig::new(channels, [4, 4])
+                    .with_stride([2, 2])
+                    .with_padding([1, 1])
+                    .init(device),
+            ),
+            Upsampling::Nearest => Self::Nearest(convolution(channels, 3, 1, device)),
+        }
+    }
+
+    fn forward(&self, input: Tensor<4>) -> Tensor<4> {
+        leaky(match self {
+            Self::Transposed(conv) => conv.forward(input),
+            Self::Nearest(conv) => conv.forward(doubled(input)),
+        })
+    }
+}
+
+impl NormalNetwork {
+    /// Side lengths of inputs must be multiples of this.
+    pub const ALIGNMENT: usize = 8;
+
+    /// Builds the network with random weights; `folded` builds the form that is stored, without
+    /// normalisation layers.
+    ///
+    /// # Errors
+    /// [`ModelError::Architecture`].
+    pub fn new(
+        architecture: &NormalArchitecture,
+        folded: bool,
+        device: &Device,
+    ) -> Result<Self, ModelError> {
+        architecture.validate()?;
+        let channels = architecture.input_channels();
+        let body = match &architecture.body {
+            NormalBody::Plain(plain) => Body::Plain(PlainBody::new(plain, channels, device)),
+            NormalBody::Cells(cells) => {
+                Body::Cells(CellBody::new(cells, channels, folded, device))
+            }
+        };
+        Ok(Self { body })
+    }
+
+    /// Features of every image by itself.
+    ///
+    /// # Shapes
+    /// - input: `[images, 6 or 7, height, width]`: normalised RGB, light direction, perhaps the
+    ///   mask; sides multiples of [`NormalNetwork::ALIGNMENT`]
+    /// - output: `[images, channels, height / 2, width / 2]`
+    pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
+        match &self.body {
+            Body::Plain(plain) => {
+                let small = all_leaky(&plain.down, input);
+                all_leaky(&plain.up, doubled(small))
+            }
+            Body::Cells(cells) => {
+                let row = forward_row(&cells.features, all_leaky(&cells.stem, input));
+                let mut features = cells.feature_up.forward(row);
+                if cells.second_up {
+                    features = doubled(features);
+                }
+                leaky(cells.feature_conv.forward(features))
+            }
+        }
+    }
+
+    /// Unit normals from the maximum of the features over the images.
+    ///
+    /// # Shapes
+    /// - fused: `[batch, channels, height / 2, width / 2]`
+    /// - output: `[batch, 3, height, width]`
+    pub fn regress(&self, fused: Tensor<4>) -> Tensor<4> {
+        let raw = match &self.body {
+            Body::Plain(plain) => {
+                let fused = doubled(all_leaky(&plain.fused, fused));
+                plain.output.forward(leaky(plain.head.forward(fused)))
+            }
+            Body::Cells(cells) => {
+                let row = forward_row(&cells.regressor, all_leaky(&cells.fused, fused));
+                cells.output.forward(cells.regressor_up.forward(row))
+            }
+        };
+        // The small term keeps the gradient finite where the network says nothing.
+        let length = (raw.clone().square().sum_dim(1) + 1e-8).sqrt();
+        raw / length
+    }
+
+    /// The same function with every normalisation layer folded into its convolution.
+    pub fn folded(&self) -> Self {
+        let mut network = self.clone();
+        if let Body::Cells(cells) = &mut network.body {
+            let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
+            cells.features = fold(&cells.features);
+            cells.regressor = fold(&cells.regressor);
+        }
+        network
+    }
+}
+
+fn all_leaky(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<4> {
+    convolutions
+        .iter()
+        .fold(input, |input, conv| leaky(conv.forward(input)))
+}
+
+impl PlainBody {
+    fn new(plain: &PlainNormal, channels: usize, device: &Device) -> Self {
+        let [a, b, c] = plain.widths;
+        let conv = |channels, stride| convolution(channels, 3, stride, device);
+        Self {
+            down: vec![
+                conv([channels, a], 1),
+                conv([a, b], 2),
+                conv([b, b], 1),
+                conv([b, c], 2),
+                conv([c, c], 1),
+            ],
+            up: vec![conv([c, b], 1), conv([b, b], 1)],
+            fused: vec![conv([b, b], 1), conv([b, b], 1)],
+            head: conv([b, plain.head], 1),
+            output: conv([plain.head, 3], 1),
+        }
+    }
+}
+
+impl CellBody {
+    fn new(cells: &CellNormal, channels: usize, folded: bool, device: &Device) -> Self {
+        let width = cells.width;
+        let genotype = &cells.genotype;
+        let conv = |channels, stride| convolution(channels, 3, stride, device);
+        let stem = vec![
+            conv([channels, 2 * width], cells.stem_strides[0]),
+            conv([2 * width, 3 * width], cells.stem_strides[1]),
+        ];
+        let mut row = CellRow::new(3 * width, width, folded, device);
+        let features = vec![
+            row.normal(&genotype.feature_normal),
+            row.reduction(&genotype.feature_reduction),
+            row.normal(&genotype.feature_normal),
+            row.reduction(&genotype.feature_reduction),
+            row.normal(&genotype.feature_normal),
+        ];
+        let mut regressor_row = CellRow::new(3 * width, width, folded, device);
+        let regressor: Vec<CellLayer> = (0..3)
+            .map(|_| regressor_row.normal(&genotype.regressor_normal))
+            .collect();
+        let mut fused = vec![conv([4 * width, 3 * width], 1)];
+        if cells.fused_convolutions == 2 {
+            fused.insert(0, conv([4 * width, 4 * width], 1));
+        }
+        Self {
+            stem,
+            feature_up: UpLayer::new([row.last, 4 * width], cells.upsampling, device),
+            feature_conv: conv([4 * width, 4 * width], 1),
+            second_up: cells.stem_strides[1] == 2,
+            features,
+            fused,
+            regressor_up: UpLayer::new([regressor_row.last, 2 * width], cells.upsampling, device),
+            regressor,
+            output: conv([2 * width, 3], 1),
+        }
+    }
+}

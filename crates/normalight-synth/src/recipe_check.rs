@@ -1,0 +1,171 @@
+use crate::{SceneRecipe, SynthError};
+
+impl SceneRecipe {
+    /// Checks every number of the recipe.
+    ///
+    /// # Errors
+    /// The first field out of range, with what was found and what is expected.
+    pub fn validate(&self) -> Result<(), SynthError> {
+        self.validate_shapes()?;
+        self.validate_materials()?;
+        self.validate_lights()?;
+        share(
+            "transport.cast_shadow_share",
+            self.transport.cast_shadow_share,
+        )?;
+        share("transport.bounce_share", self.transport.bounce_share)?;
+        share("transport.ambient_share", self.transport.ambient_share)?;
+        share("transport.ambient", self.transport.ambient)?;
+        self.validate_camera()
+    }
+
+    fn validate_shapes(&self) -> Result<(), SynthError> {
+        let shapes = &self.shapes;
+        weights(
+            "shapes",
+            &[
+                ("shapes.sphere", shapes.sphere),
+                ("shapes.ellipsoid", shapes.ellipsoid),
+                ("shapes.blob", shapes.blob),
+                ("shapes.lathe", shapes.lathe),
+                ("shapes.statue", shapes.statue),
+            ],
+        )?;
+        let field = "shapes.max_tilt_degrees";
+        number(field, shapes.max_tilt_degrees, 0.0, 60.0, "0..=60 degrees")?;
+        share("shapes.relief_share", shapes.relief_share)?;
+        share("shapes.strong_relief_share", shapes.strong_relief_share)?;
+        let field = "shapes.crop_object_pixels";
+        let expected = "[low, high] with 32 <= low <= high <= 1024 pixels";
+        range(field, shapes.crop_object_pixels, 32.0, 1024.0, expected)?;
+        let expected = "[low, high] with 0 <= low <= high <= 0.3";
+        range("shapes.margin", shapes.margin, 0.0, 0.3, expected)
+    }
+
+    fn validate_materials(&self) -> Result<(), SynthError> {
+        let materials = &self.materials;
+        share("materials.metal_share", materials.metal_share)?;
+        share("materials.matte_share", materials.matte_share)?;
+        share(
+            "materials.rough_diffuse_share",
+            materials.rough_diffuse_share,
+        )?;
+        share("materials.sheen_share", materials.sheen_share)?;
+        share("materials.mixed_share", materials.mixed_share)?;
+        share("materials.textured_share", materials.textured_share)?;
+        let expected = "[low, high] with 0 <= low <= high <= 1";
+        range("materials.albedo", materials.albedo, 0.0, 1.0, expected)?;
+        let expected = "[low, high] with 0 <= low <= high <= 0.2";
+        range(
+            "materials.dielectric_f0",
+            materials.dielectric_f0,
+            0.0,
+            0.2,
+            expected,
+        )?;
+        let expected = "[low, high] with 0.02 <= low <= high <= 1";
+        range(
+            "materials.roughness",
+            materials.roughness,
+            0.02,
+            1.0,
+            expected,
+        )
+    }
+
+    fn validate_lights(&self) -> Result<(), SynthError> {
+        let lights = &self.lights;
+        weights(
+            "lights",
+            &[
+                ("lights.rectangle", lights.rectangle),
+                ("lights.cap", lights.cap),
+                ("lights.ring", lights.ring),
+            ],
+        )?;
+        let field = "lights.rectangle_degrees";
+        number(field, lights.rectangle_degrees, 1.0, 85.0, "1..=85 degrees")?;
+        let expected = "[low, high] with 1 <= low <= high <= 85 degrees";
+        range(
+            "lights.cap_degrees",
+            lights.cap_degrees,
+            1.0,
+            85.0,
+            expected,
+        )?;
+        range(
+            "lights.ring_degrees",
+            lights.ring_degrees,
+            1.0,
+            85.0,
+            expected,
+        )?;
+        share("lights.shift_share", lights.shift_share)?;
+        let field = "lights.shift_degrees";
+        number(field, lights.shift_degrees, 0.0, 45.0, "0..=45 degrees")?;
+        share("lights.equal_share", lights.equal_share)?;
+        share("lights.mild_share", lights.mild_share)?;
+        let expected = "[low, high] with 0.01 <= low <= high <= 100";
+        range("lights.intensity", lights.intensity, 0.01, 100.0, expected)
+    }
+
+    fn validate_camera(&self) -> Result<(), SynthError> {
+        let camera = &self.camera;
+        let expected = "[low, high] with 0.001 <= low <= high <= 1";
+        range("camera.mean", camera.mean, 0.001, 1.0, expected)?;
+        share("camera.clip_share", camera.clip_share)?;
+        let expected = "[low, high] with 0 <= low <= high <= 0.2";
+        range("camera.noise", camera.noise, 0.0, 0.2, expected)?;
+        share("camera.linear_8_bit_share", camera.linear_8_bit_share)?;
+        share("camera.srgb_8_bit_share", camera.srgb_8_bit_share)
+    }
+}
+
+fn share(field: &'static str, found: f32) -> Result<(), SynthError> {
+    number(field, found, 0.0, 1.0, "0..=1")
+}
+
+// Written so that NaN fails too.
+fn number(
+    field: &'static str,
+    found: f32,
+    low: f32,
+    high: f32,
+    expected: &'static str,
+) -> Result<(), SynthError> {
+    if (low..=high).contains(&found) {
+        return Ok(());
+    }
+    Err(SynthError::OutOfRange {
+        field,
+        found: found.to_string(),
+        expected,
+    })
+}
+
+fn range(
+    field: &'static str,
+    found: [f32; 2],
+    low: f32,
+    high: f32,
+    expected: &'static str,
+) -> Result<(), SynthError> {
+    if low <= found[0] && found[0] <= found[1] && found[1] <= high {
+        return Ok(());
+    }
+    Err(SynthError::OutOfRange {
+        field,
+        found: format!("[{}, {}]", found[0], found[1]),
+        expected,
+    })
+}
+
+fn weights(field: &'static str, weights: &[(&'static str, f32)]) -> Result<(), SynthError> {
+    for &(name, weight) in weights {
+        number(name, weight, 0.0, 1e6, "a weight in 0..=1000000")?;
+    }
+    if weights.iter().all(|&(_, weight)| weight == 0.0) {
+        return Err(SynthError::NoWeight { field });
+    }
+    Ok(())
+}

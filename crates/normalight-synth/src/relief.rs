@@ -1,0 +1,123 @@
+use crate::noise::Lattice;
+use crate::random::Random;
+use glam::{Mat3, Vec3};
+
+/// Bumps, folds or carving: how far the surface is pushed outwards at every point in space.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Relief {
+    layers: Vec<Layer>,
+    reach: f32,
+    slope: f32,
+}
+
+#[derive(Debug, Clone)]
+struct Layer {
+    /// From space to the cells of the noise.
+    to_noise: Mat3,
+    offset: Vec3,
+    height: f32,
+    /// Sharp valleys instead of round bumps.
+    ridged: bool,
+}
+
+impl Relief {
+    /// Mild or strong relief of an upright object about two units tall, turned by `rotation`.
+    pub(crate) fn draw(random: &mut Random, strong: bool, rotation: Mat3) -> Self {
+        let mut relief = Self::default();
+        let layers = random.count(1, if strong { 3 } else { 2 });
+        // Folds of cloth hang down: long in y.
+        let stretch = if random.chance(0.35) {
+            Vec3::new(1.0, random.range(0.15, 0.4), 1.0)
+        } else {
+            Vec3::ONE
+        };
+        for _ in 0..layers {
+            let (frequency, slope) = if strong {
+                (random.log_range(2.5, 13.0), random.range(0.2, 0.6))
+            } else {
+                (random.log_range(1.2, 6.0), random.range(0.05, 0.35))
+            };
+            let ridged = random.chance(0.3);
+            let turn = rotation * Mat3::from_diagonal(stretch) * rotation.transpose();
+            relief.add(random, frequency, slope, ridged, turn);
+        }
+        relief
+    }
+
+    /// Large soft bumps that make a blob out of a ball.
+    pub(crate) fn lumps(random: &mut Random) -> Self {
+        let mut relief = Self::default();
+        for _ in 0..random.count(1, 2) {
+            let (frequency, slope) = (random.log_range(0.9, 2.5), random.range(0.3, 0.8));
+            relief.add(random, frequency, slope, false, Mat3::IDENTITY);
+        }
+        relief
+    }
+
+    /// Both reliefs on one surface.
+    pub(crate) fn joined(mut self, other: Self) -> Self {
+        self.layers.extend(other.layers);
+        self.reach += other.reach;
+        self.slope += other.slope;
+        self
+    }
+
+    /// Made shallower until nothing is displaced by more than `reach`, so that thin parts neither
+    /// break nor melt.
+    pub(crate) fn limited(mut self, reach: f32) -> Self {
+        if self.reach > reach {
+            let share = reach / self.reach;
+            for layer in &mut self.layers {
+                layer.height *= share;
+            }
+            self.slope *= share;
+            self.reach = reach;
+        }
+        self
+    }
+
+    fn add(&mut self, random: &mut Random, frequency: f32, slope: f32, ridged: bool, turn: Mat3) {
+        // Quintic value noise rises by about 1.5 times its height a cell where it is steep.
+        let height = slope / (1.5 * frequency);
+        self.layers.push(Layer {
+            // Turned at random so that the cells' walls do not line up with the image.
+            to_noise: random.rotation() * turn * frequency,
+            offset: random.vector(16.0),
+            height,
+            ridged,
+        });
+        self.reach += height;
+        self.slope += slope;
+    }
+
+    pub(crate) fn is_flat(&self) -> bool {
+        self.layers.is_empty()
+    }
+
+    /// Largest displacement in either direction.
+    pub(crate) fn reach(&self) -> f32 {
+        self.reach
+    }
+
+    /// Typical steepest change of the displacement along the surface.
+    pub(crate) fn slope(&self) -> f32 {
+        self.slope
+    }
+
+    /// Displacement at a point, within -reach..reach.
+    #[inline]
+    pub(crate) fn at(&self, lattice: &Lattice, point: Vec3) -> f32 {
+        self.layers
+            .iter()
+            .map(|layer| {
+                let noise = lattice.at(layer.to_noise * point + layer.offset);
+                if layer.ridged {
+                    // A slightly rounded absolute value: creases, but no infinitely thin ones.
+                    layer.height * ((noise * noise + 0.003).sqrt() * 1.6 - 0.6).min(1.0)
+                } else {
+                    layer.height * noise
+                }
+            })
+            .sum()
+    }
+}

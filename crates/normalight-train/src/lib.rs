@@ -1,0 +1,20 @@
+//! Training of both networks on rendered samples, and their evaluation on benchmarks.
+#![deny(missing_docs)]
+
+mod adam;
+mod batch;
+mod checkpoint;
+mod curves;
+mod error;
+//mod evaluate;
+mod light_task;
+mod loader;
+mod normal_task;
+mod recipe;
+mod run;
+mod task;
+
+pub use error::TrainError;
+//pub use evaluate::{EvaluationRow, EvaluationTable, evaluate_object};
+pub use recipe::{LightSettings, Network, NormalSettings, TrainRecipe};
+pub use run::{StepReport, TrainRun, train};

@@ -1,0 +1,183 @@
+use crate::batch::{Batch, most_per_sample};
+use crate::task::Task;
+use crate::{TrainError, TrainRecipe};
+use burn::tensor::{Device, Tensor, TensorData, activation};
+use normalight_core::{Decoding, Light, LightBins, mean_light_error};
+use normalight_model::{LightNetwork, Quiet, Weights, estimate_lights};
+use normalight_synth::{Object, Sample};
+use std::collections::BTreeMap;
+use std::f32::consts::PI;
+
+/// The light calibration network on whole objects.
+///
+/// Target: `[samples * images, classes + 4]`: soft labels of the three heads side by side, the
+/// true direction, the logarithm of the intensity relative to the sample's mean.
+pub(crate) struct LightTask;
+
+impl Task for LightTask {
+    type Network = LightNetwork;
+
+    fn network(recipe: &TrainRecipe, device: &Device) -> Result<LightNetwork, TrainError> {
+        Ok(LightNetwork::new(&recipe.light.architecture, false, device)?)
+    }
+
+    fn object(recipe: &TrainRecipe, seed: u64) -> Object {
+        Object::draw(&recipe.scene, seed, recipe.size)
+    }
+
+    fn sample(recipe: &TrainRecipe, object: &Object, seed: u64, images: usize) -> Sample {
+        object.whole(&recipe.scene, seed, images)
+    }
+
+    fn append(recipe: &TrainRecipe, sample: &Sample, _seed: u64, batch: &mut Batch) {
+        let area = sample.size * sample.size;
+        let inside = sample.mask.iter().filter(|&&inside| inside).count();
+        let sum: f32 = sample.images.iter().sum();
+        let mean = sum / (3 * inside.max(1) * sample.lights.len()) as f32;
+        for image in sample.images.chunks_exact(3 * area) {
+            let factor = 1.0 / mean.max(1e-12);
+            batch.input.extend(image.iter().map(|value| value * factor));
+            let mask = sample.mask.iter();
+            batch.input.extend(mask.map(|&inside| f32::from(u8::from(inside))));
+        }
+        let bins = &recipe.light.architecture.bins;
+        let brightness = sample.lights.iter().map(Light::mean_intensity);
+        let mean = brightness.sum::<f32>() / sample.lights.len() as f32;
+        for light in &sample.lights {
+            let relative = Light::new(light.direction, light.mean_intensity() / mean);
+            let positions = bins.positions(&relative);
+            let deviation = recipe.light.label_deviation;
+            for (position, count) in positions.into_iter().zip(heads(bins)) {
+                batch.target.extend(soft_label(position, count, deviation));
+            }
+            batch.target.extend(light.direction.to_array());
+            batch.target.push(relative.mean_intensity().ln());
+        }
+    }
+
+    fn channels(_recipe: &TrainRecipe) -> usize {
+        4
+    }
+
+    fn loss(
+        recipe: &TrainRecipe,
+        network: &LightNetwork,
+        batch: &Batch,
+        device: &Device,
+    ) -> Tensor<1> {
+        let settings = &recipe.light;
+        let bins = &settings.architecture.bins;
+        let own = network.features(batch.input(device));
+        let fused = repeat_per_image(most_per_sample(own.clone(), batch.samples), batch.images);
+        let scores = network.classify(own, fused);
+        let [rows, classes] = scores.dims();
+        let target = TensorData::new(batch.target.clone(), [rows, classes + 4]);
+        let target = Tensor::<2>::from_data(target, device);
+        let column = |from: usize, to: usize| target.clone().slice([0..rows, from..to]);
+        let [azimuths, elevations, intensities] = heads(bins);
+        let mut loss = Tensor::<1>::zeros([1], device);
+        let mut expected = Vec::with_capacity(3);
+        let mut from = 0;
+        for count in [azimuths, elevations, intensities] {
+            let head = scores.clone().slice([0..rows, from..from + count]);
+            let log = activation::log_softmax(head, 1);
+            loss = loss - (log.clone() * column(from, from + count)).sum() / rows as f32;
+            let centres: Vec<f32> = (0..count).map(|k| k as f32 + 0.5).collect();
+            let centres = Tensor::<2>::from_data(TensorData::new(centres, [1, count]), device);
+            expected.push((log.exp() * centres).sum_dim(1));
+            from += count;
+        }
+        let angle = |position: &Tensor<2>, count: usize| {
+            position.clone() * (PI / count as f32) - PI / 2.0
+        };
+        let azimuth = angle(&expected[0], azimuths);
+        let elevation = angle(&expected[1], elevations);
+        let flat = elevation.clone().cos();
+        let direction = Tensor::cat(
+            vec![
+                azimuth.clone().sin() * flat.clone(),
+                elevation.sin(),
+                azimuth.cos() * flat,
+            ],
+            1,
+        );
+        let cosine = (direction * column(classes, classes + 3)).sum() / rows as f32;
+        loss = loss + (-cosine + 1.0) * settings.direction_weight;
+        // Classes are spaced evenly in the logarithm (ours) or linearly (the paper's); for the
+        // latter the middle slope serves as an approximation.
+        let per_class = (bins.intensity.high / bins.intensity.low).ln() / intensities as f32;
+        let logarithm = expected[2].clone() * per_class + bins.intensity.low.ln();
+        let error = (logarithm - column(classes + 3, classes + 4)).square().sum() / rows as f32;
+        loss + error * settings.intensity_weight
+    }
+
+    fn validate(
+        recipe: &TrainRecipe,
+        network: &LightNetwork,
+        objects: &[Sample],
+        device: &Device,
+    ) -> Result<f32, TrainError> {
+        let mut sum = 0.0;
+        for sample in objects {
+            let (stack, mask) = sample.to_stack()?;
+            let lights = pollster::block_on(estimate_lights(
+                &recipe.light.architecture,
+                network,
+                &stack,
+                &mask,
+                Decoding::SoftArgmax,
+                device,
+                &mut Quiet,
+            ))?;
+            sum += mean_light_error(&lights, &sample.lights)?;
+        }
+        Ok((sum / objects.len() as f32).to_degrees())
+    }
+
+    fn bytes(recipe: &TrainRecipe, network: &LightNetwork) -> Result<Vec<u8>, TrainError> {
+        let architecture = &recipe.light.architecture;
+        Ok(Weights::light_bytes(architecture, network, &BTreeMap::new())?)
+    }
+}
+
+fn heads(bins: &LightBins) -> [usize; 3] {
+    [bins.azimuth, bins.elevation, bins.intensity.count]
+}
+
+/// A Gaussian around a position on the class axis, summing to one.
+fn soft_label(position: f32, count: usize, deviation: f32) -> Vec<f32> {
+    let position = position.clamp(0.0, count as f32);
+    let mut label: Vec<f32> = (0..count)
+        .map(|class| (-0.5 * ((class as f32 + 0.5 - position) / deviation).powi(2)).exp())
+        .collect();
+    let sum: f32 = label.iter().sum();
+    for value in &mut label {
+        *value /= sum;
+    }
+    label
+}
+
+/// # Shapes
+/// - fused: `[samples, channels, height, width]`
+/// - output: `[samples * images, channels, height, width]`
+fn repeat_per_image(fused: Tensor<4>, images: usize) -> Tensor<4> {
+    let [samples, channels, height, width] = fused.dims();
+    fused
+        .reshape([samples, 1, channels * height * width])
+        .expand([samples, images, channels * height * width])
+        .reshape([samples * images, channels, height, width])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn soft_labels_keep_their_mean() {
+        for position in [3.2f32, 18.0, 30.9] {
+            let label = soft_label(position, 36, 1.0);
+            let weighted = label.iter().enumerate().map(|(k, p)| (k as f32 + 0.5) * p);
+            assert!((weighted.sum::<f32>() - position).abs() < 1e-3);
+        }
+    }
+}

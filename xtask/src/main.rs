@@ -1,0 +1,78 @@
+//! Set-up, demo, test: what people and CI run.
+//!
+//! `cargo xtask demo` builds everything and serves the page; `cargo xtask test` runs every test.
+//! Both fetch what is missing first, and name the exact command where they may not install.
+
+mod fresh;
+mod node;
+mod run;
+mod serve;
+mod setup;
+mod steps;
+mod wasm;
+mod workspace;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::{Parser, Subcommand};
+
+use steps::Step;
+use workspace::Workspace;
+
+/// Builds, shows and tests Normalight.
+#[derive(Parser)]
+#[command(bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Build the page and serve it on this computer.
+    Demo {
+        /// The port to serve on; the next free one if it is taken.
+        #[arg(long, default_value_t = 8000)]
+        port: u16,
+        /// Build only.
+        #[arg(long)]
+        no_serve: bool,
+    },
+    /// Run every check and test: Rust, WebAssembly in a browser, the page end to end.
+    Test {
+        /// Run only this step (repeatable).
+        #[arg(long, value_name = "STEP")]
+        only: Vec<Step>,
+        /// Leave out this step (repeatable).
+        #[arg(long, value_name = "STEP")]
+        skip: Vec<Step>,
+    },
+    /// Build the WebAssembly module and its JavaScript into web/wasm.
+    Wasm,
+}
+
+fn main() -> ExitCode {
+    match perform(Arguments::parse().task) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            run::note(&format!("error: {error:#}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn perform(task: Task) -> Result<()> {
+    let workspace = Workspace::find()?;
+    match task {
+        Task::Demo { port, no_serve } => {
+            steps::run(&workspace, &steps::DEMO)?;
+            if no_serve {
+                return Ok(());
+            }
+            serve::serve(&workspace.root.join("www/dist"), port)
+        }
+        Task::Test { only, skip } => steps::run(&workspace, &steps::chosen(&only, &skip)),
+        Task::Wasm => steps::run(&workspace, &steps::WASM),
+    }
+}

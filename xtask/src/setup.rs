@@ -1,0 +1,178 @@
+//! What the steps need from the system, and installing what is missing.
+
+use std::cell::{Cell, OnceCell};
+use std::path::PathBuf;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use crate::node::Node;
+use crate::run;
+use crate::wasm::Toolchain;
+use crate::workspace::Workspace;
+
+/// The tools outside Cargo's reach, each looked for (and installed) when first asked for.
+pub struct Tools<'a> {
+    workspace: &'a Workspace,
+    packages: Packages<'a>,
+    components: OnceCell<()>,
+    toolchain: OnceCell<Toolchain>,
+    node: OnceCell<Node>,
+    chromium: OnceCell<PathBuf>,
+}
+
+impl<'a> Tools<'a> {
+    /// Nothing looked for yet.
+    pub fn new(workspace: &'a Workspace) -> Self {
+        Self {
+            workspace,
+            packages: Packages {
+                workspace,
+                updated: Cell::new(false),
+            },
+            components: OnceCell::new(),
+            toolchain: OnceCell::new(),
+            node: OnceCell::new(),
+            chromium: OnceCell::new(),
+        }
+    }
+
+    /// rustfmt and clippy, which a minimal Rust lacks.
+    pub fn components(&self) -> Result<()> {
+        once(&self.components, || components(self.workspace)).map(|_| ())
+    }
+
+    /// The Rust toolchain that builds WebAssembly.
+    pub fn toolchain(&self) -> Result<&Toolchain> {
+        once(&self.toolchain, || {
+            Toolchain::find(self.workspace, &self.packages)
+        })
+    }
+
+    /// Node.js and npm.
+    pub fn node(&self) -> Result<&Node> {
+        once(&self.node, || Node::find(self.workspace, &self.packages))
+    }
+
+    /// The browser the page is tested in.
+    pub fn chromium(&self) -> Result<&PathBuf> {
+        once(&self.chromium, || chromium(self.workspace, &self.packages))
+    }
+}
+
+fn once<T>(cell: &OnceCell<T>, find: impl FnOnce() -> Result<T>) -> Result<&T> {
+    if let Some(found) = cell.get() {
+        return Ok(found);
+    }
+    let found = find()?;
+    Ok(cell.get_or_init(|| found))
+}
+
+/// Whether rustup was told to install nothing by itself.
+pub fn rustup_may_not_install() -> bool {
+    std::env::var("RUSTUP_AUTO_INSTALL").is_ok_and(|value| value == "0")
+}
+
+fn components(workspace: &Workspace) -> Result<()> {
+    for (subcommand, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
+        if run::read(&mut workspace.cargo(&[subcommand, "--version"])).is_ok() {
+            continue;
+        }
+        let by_hand = format!("install it: rustup component add {component}");
+        if rustup_may_not_install() {
+            bail!("{component} is missing; {by_hand}");
+        }
+        workspace.say(&format!("setup: rustup component add {component}"));
+        run::read(Command::new("rustup").args(["component", "add", component])).context(by_hand)?;
+    }
+    Ok(())
+}
+
+fn chromium(workspace: &Workspace, packages: &Packages) -> Result<PathBuf> {
+    const VARIABLE: &str = "NORMALIGHT_CHROMIUM";
+    if let Some(path) = std::env::var_os(VARIABLE).map(PathBuf::from) {
+        if !path.is_file() {
+            bail!("{VARIABLE} names {}, which is no file", path.display());
+        }
+        return Ok(path);
+    }
+    let find = || {
+        let names = [
+            "chromium",
+            "chromium-browser",
+            "google-chrome",
+            "google-chrome-stable",
+        ];
+        names.into_iter().find_map(|name| which::which(name).ok())
+    };
+    if let Some(path) = find() {
+        workspace.say(&format!("setup: the browser is {}", path.display()));
+        return Ok(path);
+    }
+    packages.install(&["chromium"]).with_context(|| {
+        format!("the page's tests need Chromium or Chrome (or its path in {VARIABLE})")
+    })?;
+    find().context("chromium was installed, but is not on the path")
+}
+
+/// Debian's packages.
+pub struct Packages<'a> {
+    workspace: &'a Workspace,
+    updated: Cell<bool>,
+}
+
+impl Packages<'_> {
+    /// Whether all of these are installed.
+    pub fn installed(&self, names: &[&str]) -> bool {
+        let mut command = Command::new("dpkg-query");
+        command
+            .args(["--show", "--showformat", "${db:Status-Status}\n"])
+            .args(names);
+        run::read(&mut command).is_ok_and(|text| {
+            text.lines().filter(|line| *line == "installed").count() == names.len()
+        })
+    }
+
+    /// Installs packages, or fails with the command to type.
+    pub fn install(&self, names: &[&str]) -> Result<()> {
+        let install = format!(
+            "apt-get install --yes --no-install-recommends {}",
+            names.join(" ")
+        );
+        let by_hand = format!("install by hand: sudo apt-get update && sudo {install}");
+        if which::which("apt-get").is_err() {
+            bail!("there is no apt-get here to install {}", names.join(" "));
+        }
+        let root = run::read(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
+        if !root && !run::works("sudo", &["-n", "true"]) {
+            bail!("no right to install packages; {by_hand}");
+        }
+        if !self.updated.replace(true) {
+            self.workspace.say("setup: apt-get update");
+            // One source out of reach is no reason to stop: the install says what it misses.
+            if let Err(error) = run::read(&mut apt(root, &["update"])) {
+                self.workspace.say(&format!("setup: {error:#}"));
+            }
+        }
+        self.workspace.say(&format!("setup: {install}"));
+        let words: Vec<&str> = install.split(' ').skip(1).collect();
+        run::read(&mut apt(root, &words))
+            .map(|_| ())
+            .context(by_hand)
+    }
+}
+
+fn apt(root: bool, arguments: &[&str]) -> Command {
+    let mut command = Command::new(if root { "env" } else { "sudo" });
+    if !root {
+        command.args(["-n", "env"]);
+    }
+    command.args([
+        "DEBIAN_FRONTEND=noninteractive",
+        "apt-get",
+        "-o",
+        "DPkg::Lock::Timeout=300",
+    ]);
+    command.args(arguments);
+    command
+}

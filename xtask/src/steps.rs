@@ -1,0 +1,202 @@
+//! The steps in their order, each timed; the first that fails ends the run.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+use clap::ValueEnum;
+
+use crate::run;
+use crate::setup::Tools;
+use crate::wasm;
+use crate::workspace::Workspace;
+
+/// One step of the tests or the demo.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Step {
+    /// Rust's format.
+    Fmt,
+    /// These tasks themselves: lints and tests.
+    Xtask,
+    /// Lints of the native crates.
+    Clippy,
+    /// The documentation builds without warnings.
+    Docs,
+    /// The command and the native tests, compiled.
+    Build,
+    /// The native tests.
+    Rust,
+    /// Lints of what runs in the browser.
+    WasmClippy,
+    /// The WebAssembly module.
+    Wasm,
+    /// The module's JavaScript.
+    Bindgen,
+    /// The page's packages.
+    NpmCi,
+    /// Types and lints of the page.
+    Check,
+    /// The page.
+    Page,
+    /// The package and the page in a browser.
+    PageTests,
+}
+
+/// What the demo needs.
+pub const DEMO: [Step; 4] = [Step::Wasm, Step::Bindgen, Step::NpmCi, Step::Page];
+
+/// What `web/wasm` needs.
+pub const WASM: [Step; 2] = [Step::Wasm, Step::Bindgen];
+
+/// The native crates. All native commands name this one set: Cargo unifies features over the
+/// set, and another would compile Burn again. The browser's door builds for WebAssembly only;
+/// these tasks have their own, cheap profile.
+const NATIVE: [&str; 6] = [
+    "--release",
+    "--workspace",
+    "--exclude",
+    "normalight-wasm",
+    "--exclude",
+    "xtask",
+];
+
+/// All steps in order, without those left out.
+pub fn chosen(only: &[Step], skip: &[Step]) -> Vec<Step> {
+    let wanted = |step: &&Step| (only.is_empty() || only.contains(step)) && !skip.contains(step);
+    Step::value_variants()
+        .iter()
+        .filter(wanted)
+        .copied()
+        .collect()
+}
+
+/// Prepares the tools, runs the steps and sums up their times.
+pub fn run(workspace: &Workspace, steps: &[Step]) -> Result<()> {
+    if steps.is_empty() {
+        bail!("no step is left to run");
+    }
+    let tools = Tools::new(workspace);
+    let mut times: Vec<(String, Duration)> = Vec::new();
+    let started = Instant::now();
+    // Before anything is compiled: what cannot be installed should not come to light at the end.
+    prepare(&tools, steps)?;
+    times.push(("setup".into(), started.elapsed()));
+    for step in steps {
+        workspace.say(&format!("{}: {}", step.name(), step.does()));
+        let started = Instant::now();
+        let result = step.perform(workspace, &tools);
+        times.push((step.name(), started.elapsed()));
+        if result.is_err() {
+            sum_up(workspace, &times);
+        }
+        result.with_context(|| format!("step {}", step.name()))?;
+    }
+    sum_up(workspace, &times);
+    Ok(())
+}
+
+fn sum_up(workspace: &Workspace, times: &[(String, Duration)]) {
+    let times: Vec<String> = times
+        .iter()
+        .map(|(name, time)| format!("{name} {:.1} s", time.as_secs_f64()))
+        .collect();
+    workspace.say(&times.join(", "));
+}
+
+fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
+    for step in steps {
+        match step {
+            Step::Fmt | Step::Clippy | Step::Xtask => tools.components()?,
+            Step::WasmClippy | Step::Wasm => drop(tools.toolchain()?),
+            Step::NpmCi | Step::Check | Step::Page => drop(tools.node()?),
+            Step::PageTests => {
+                tools.node()?;
+                tools.chromium()?;
+            }
+            Step::Docs | Step::Build | Step::Rust | Step::Bindgen => {}
+        }
+    }
+    Ok(())
+}
+
+impl Step {
+    fn name(self) -> String {
+        self.to_possible_value()
+            .map(|value| value.get_name().to_owned())
+            .unwrap_or_default()
+    }
+
+    fn does(self) -> String {
+        self.to_possible_value()
+            .and_then(|value| value.get_help().map(ToString::to_string))
+            .unwrap_or_default()
+    }
+
+    fn perform(self, workspace: &Workspace, tools: &Tools) -> Result<()> {
+        let native = |before: &[&str], after: &[&str]| {
+            let mut command = workspace.cargo(before);
+            command
+                .args(NATIVE)
+                .args(after)
+                .env("NORMALIGHT_CLI", workspace.command_line());
+            command
+        };
+        let npm = |arguments: &[&str]| anyhow::Ok(tools.node()?.npm(workspace, arguments));
+        match self {
+            Self::Fmt => run::run(&mut workspace.cargo(&["fmt", "--all", "--check"])),
+            Self::Xtask => {
+                let lint = ["clippy", "--package", "xtask", "--all-targets", "--"];
+                run::run(workspace.cargo(&lint).args(["-D", "warnings"]))?;
+                run::run(&mut workspace.cargo(&["test", "--package", "xtask"]))
+            }
+            Self::Clippy => run::run(&mut native(
+                &["clippy"],
+                &["--all-targets", "--", "-D", "warnings"],
+            )),
+            Self::Docs => {
+                run::run(native(&["doc", "--no-deps"], &[]).env("RUSTDOCFLAGS", "-D warnings"))
+            }
+            // With the tests, although only the command is wanted: the features of development
+            // dependencies count then too, as they do in the next step.
+            Self::Build => run::run(&mut native(&["build"], &["--bins", "--tests"])),
+            Self::Rust => run::run(&mut native(&["test"], &[])),
+            Self::WasmClippy => tools.toolchain()?.clippy(workspace),
+            Self::Wasm => tools.toolchain()?.build(workspace),
+            Self::Bindgen => wasm::bindgen(workspace),
+            Self::NpmCi => tools.node()?.install_packages(workspace),
+            Self::Check => run::run(&mut npm(&["run", "check"])?),
+            Self::Page => tools.node()?.build_page(workspace),
+            Self::PageTests => {
+                let command_line = workspace.command_line();
+                if !command_line.is_file() {
+                    bail!("{} is missing: step build makes it", command_line.display());
+                }
+                let mut command = npm(&["test"])?;
+                command.env("NORMALIGHT_CLI", command_line);
+                run::run(command.env("NORMALIGHT_CHROMIUM", tools.chromium()?))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_keep_their_order() {
+        let steps = chosen(&[Step::Wasm, Step::Fmt], &[]);
+        assert_eq!(steps, [Step::Fmt, Step::Wasm]);
+        assert_eq!(chosen(&[], &[]).len(), Step::value_variants().len());
+        assert!(!chosen(&[], &[Step::Docs]).contains(&Step::Docs));
+    }
+
+    #[test]
+    fn every_step_says_what_it_does() {
+        for step in Step::value_variants() {
+            assert!(
+                !step.name().is_empty() && !step.does().is_empty(),
+                "{step:?}"
+            );
+        }
+    }
+}
