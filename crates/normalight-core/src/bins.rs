@@ -227,7 +227,9 @@ mod tests {
     use proptest::prelude::*;
 
     fn one_hot(class: usize, count: usize) -> Vec<f32> {
-        (0..count).map(|k| f32::from(u8::from(k == class))).collect()
+        (0..count)
+            .map(|k| f32::from(u8::from(k == class)))
+            .collect()
     }
 
     proptest! {

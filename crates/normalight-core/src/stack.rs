@@ -135,7 +135,9 @@ impl ImageStack {
                     copy_tile(image, samples, rect, out, |code| f32::from(code) / 255.0);
                 }
                 Transfer::Srgb => {
-                    copy_tile(image, samples, rect, out, |code| self.srgb8[usize::from(code)]);
+                    copy_tile(image, samples, rect, out, |code| {
+                        self.srgb8[usize::from(code)]
+                    });
                 }
             },
             Samples::U16(samples) => copy_tile(image, samples, rect, out, |code| {
@@ -369,7 +371,10 @@ mod tests {
         let mut nan = vec![0.0; 20];
         nan[7] = f32::NAN;
         let error = ImageStack::new(vec![image("n.exr", Samples::F32(nan), 1)]).unwrap_err();
-        assert!(error.to_string().contains("n.exr: sample 7 is NaN"), "{error}");
+        assert!(
+            error.to_string().contains("n.exr: sample 7 is NaN"),
+            "{error}"
+        );
         let short = image("s", Samples::U8(vec![1; 19]), 1);
         assert!(matches!(
             ImageStack::new(vec![short]),
@@ -379,7 +384,10 @@ mod tests {
 
     #[test]
     fn evenly_spaced_picks_in_order() {
-        assert_eq!(evenly_spaced_indices(96, 8), [0, 12, 24, 36, 48, 60, 72, 84]);
+        assert_eq!(
+            evenly_spaced_indices(96, 8),
+            [0, 12, 24, 36, 48, 60, 72, 84]
+        );
         assert_eq!(evenly_spaced_indices(5, 9), [0, 1, 2, 3, 4]);
         assert_eq!(evenly_spaced_indices(10, 3), [0, 3, 6]);
     }

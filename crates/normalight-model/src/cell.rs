@@ -134,11 +134,7 @@ impl CellLayer {
         Self {
             before_last: self.before_last.folded(),
             last: self.last.folded(),
-            operations: self
-                .operations
-                .iter()
-                .map(OperationLayer::folded)
-                .collect(),
+            operations: self.operations.iter().map(OperationLayer::folded).collect(),
             from: self.from.clone(),
         }
     }

@@ -1,7 +1,7 @@
 use crate::observer::{Observer, Progress, Stage};
 use crate::{
     LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Weights,
-    default_light_weights, default_normal_weights, estimate_lights, estimate_normals,
+    estimate_lights, estimate_normals,
 };
 use burn::tensor::Device;
 use normalight_core::{
@@ -66,14 +66,6 @@ impl Estimator {
             device,
             hashes: [light.hash().to_owned(), normal.hash().to_owned()],
         })
-    }
-
-    /// Loads the weights that come with this crate.
-    ///
-    /// # Errors
-    /// As [`Estimator::new`]; only when the build is broken.
-    pub fn with_default_weights(device: Device) -> Result<Self, ModelError> {
-        Self::new(&default_light_weights()?, &default_normal_weights()?, device)
     }
 
     /// SHA-256 of the light and the normal weights, in hexadecimal.

@@ -174,7 +174,12 @@ mod tests {
             "g.json",
             r#"{"source": "", "normal": {"feature_normal": {"nodes": []}}}"#,
         );
-        assert!(error.unwrap_err().to_string().contains("g.json: missing field"));
+        assert!(
+            error
+                .unwrap_err()
+                .to_string()
+                .contains("g.json: missing field")
+        );
         let cyclic = Cell {
             nodes: vec![[
                 Edge {
@@ -190,7 +195,9 @@ mod tests {
         let message = cyclic.validate("cell").unwrap_err().to_string();
         assert!(message.contains("input of node 0: found 2"), "{message}");
         let unknown = r#"{"source": "", "light": {"feature_normal": {"nodes": [[{"operation": "pool", "from": 0}]]}}}"#;
-        let message = Genotypes::from_json("g.json", unknown).unwrap_err().to_string();
+        let message = Genotypes::from_json("g.json", unknown)
+            .unwrap_err()
+            .to_string();
         assert!(message.contains("unknown variant `pool`"), "{message}");
         assert!(Cell { nodes: vec![] }.validate("cell").is_err());
     }

@@ -135,10 +135,7 @@ impl FactorizedReduce {
             .slice([0..batch, 0..channels, 1..height, 1..width]);
         // Batch normalisation works per channel, so normalising the halves is the same as
         // normalising both together.
-        Tensor::cat(
-            vec![self.even.forward(input), self.odd.forward(shifted)],
-            1,
-        )
+        Tensor::cat(vec![self.even.forward(input), self.odd.forward(shifted)], 1)
     }
 
     pub(crate) fn folded(&self) -> Self {

@@ -24,7 +24,7 @@ pub use architecture::{
     Architecture, CellLight, CellNormal, LightArchitecture, LightBody, NormalArchitecture,
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
-pub use defaults::{default_light_weights, default_normal_weights, paper_genotypes};
+pub use defaults::paper_genotypes;
 pub use error::ModelError;
 pub use estimator::{Estimate, EstimateSettings, Estimator};
 pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};

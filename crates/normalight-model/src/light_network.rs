@@ -95,9 +95,7 @@ impl LightNetwork {
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
             Features::Plain(plain) => plain.forward(input),
-            Features::Cells(cells) => {
-                forward_row(&cells.cells, forward_leaky(&cells.stem, input))
-            }
+            Features::Cells(cells) => forward_row(&cells.cells, forward_leaky(&cells.stem, input)),
         }
     }
 
@@ -173,7 +171,12 @@ fn cell_layers(
     let genotype = &cells.genotype;
     let stem_channels = 3 * width;
     let stem = vec![
-        convolution([INPUT_CHANNELS, 2 * width], 3, cells.stem_strides[0], device),
+        convolution(
+            [INPUT_CHANNELS, 2 * width],
+            3,
+            cells.stem_strides[0],
+            device,
+        ),
         convolution([2 * width, stem_channels], 3, cells.stem_strides[1], device),
     ];
     let mut row = CellRow::new(stem_channels, width, folded, device);

@@ -87,8 +87,10 @@ impl LightView {
             for (value, &inside) in plane.iter_mut().zip(&self.inside) {
                 *value *= inside;
             }
-            for ((out, value), &coverage) in
-                view.iter_mut().zip(self.averaged(plane)).zip(&self.coverage)
+            for ((out, value), &coverage) in view
+                .iter_mut()
+                .zip(self.averaged(plane))
+                .zip(&self.coverage)
             {
                 *out = if coverage >= 0.5 {
                     value / coverage * self.scale
@@ -187,7 +189,10 @@ mod tests {
             let covered: f32 = out[3 * 1024..].iter().sum();
             let aspect = width.min(height) as f32 / width.max(height) as f32;
             let expected = (32.0 * (1.0 - 2.0 * MARGIN)).powi(2) * aspect;
-            assert!((covered / expected - 1.0).abs() < 0.25, "{covered} {expected}");
+            assert!(
+                (covered / expected - 1.0).abs() < 0.25,
+                "{covered} {expected}"
+            );
             for (value, inside) in out[..1024].iter().zip(&out[3 * 1024..]) {
                 assert!((value - 1.5 * inside).abs() < 1e-4);
             }

@@ -88,9 +88,7 @@ impl NormalNetwork {
         let channels = architecture.input_channels();
         let body = match &architecture.body {
             NormalBody::Plain(plain) => Body::Plain(PlainBody::new(plain, channels, device)),
-            NormalBody::Cells(cells) => {
-                Body::Cells(CellBody::new(cells, channels, folded, device))
-            }
+            NormalBody::Cells(cells) => Body::Cells(CellBody::new(cells, channels, folded, device)),
         };
         Ok(Self { body })
     }

@@ -25,7 +25,10 @@ const DARK: f32 = 1e-6;
 ///
 /// # Errors
 /// [`ModelError::Cancelled`], [`ModelError::Device`] or [`ModelError::Core`].
-#[expect(clippy::too_many_arguments, reason = "one call site per stage, all needed")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "one call site per stage, all needed"
+)]
 pub async fn estimate_normals(
     architecture: &NormalArchitecture,
     network: &NormalNetwork,
@@ -194,10 +197,8 @@ impl Tile {
                 }
             }
         }
-        let colours = Tensor::<4>::from_data(
-            TensorData::new(values, [count, 3, height, width]),
-            device,
-        );
+        let colours =
+            Tensor::<4>::from_data(TensorData::new(values, [count, 3, height, width]), device);
         let directions =
             Tensor::<4>::from_data(TensorData::new(directions, [count, 3, 1, 1]), device)
                 .expand([count, 3, height, width]);

@@ -67,7 +67,10 @@ pub struct StageTimes {
 impl StageTimes {
     /// Notes that `progress` was reported when the clock showed `now` seconds.
     pub fn note(&mut self, progress: Progress, now: f64) {
-        if self.current.is_none_or(|(stage, _)| stage != progress.stage) {
+        if self
+            .current
+            .is_none_or(|(stage, _)| stage != progress.stage)
+        {
             self.finish(now);
             self.current = Some((progress.stage, now));
         }

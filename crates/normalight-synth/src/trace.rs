@@ -125,6 +125,7 @@ impl View {
         let lattice = Lattice::shared();
         let (window, width) = (self.window, self.window.width);
         let spread = 0.1 * window.pitch;
+        let mut edge_on = Vec::new();
         for row in 0..window.height {
             for column in 0..width {
                 let pixel = row * width + column;
@@ -137,7 +138,7 @@ impl View {
                 let mut normal = shape.normal(lattice, hit, active, spread);
                 if normal.z < MIN_NORMAL_Z {
                     if !self.is_surrounded(row, column) {
-                        self.depth[pixel] = f32::NEG_INFINITY;
+                        edge_on.push(pixel);
                         continue;
                     }
                     normal.z = MIN_NORMAL_Z;
@@ -145,6 +146,10 @@ impl View {
                 }
                 self.normals[pixel] = normal;
             }
+        }
+        // Only now, or each would expose the next.
+        for pixel in edge_on {
+            self.depth[pixel] = f32::NEG_INFINITY;
         }
     }
 

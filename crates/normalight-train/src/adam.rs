@@ -107,11 +107,8 @@ impl ModuleMapper for Updater<'_> {
         let step = self.adam.step;
         let rate = self.rate / (1.0 - BETA_1.powi(step));
         let correction = 1.0 / (1.0 - BETA_2.powi(step));
-        for (((weight, gradient), first), second) in weights
-            .iter_mut()
-            .zip(gradient)
-            .zip(first)
-            .zip(second)
+        for (((weight, gradient), first), second) in
+            weights.iter_mut().zip(gradient).zip(first).zip(second)
         {
             let gradient = gradient * self.scale;
             *first += (1.0 - BETA_1) * (gradient - *first);

@@ -81,7 +81,9 @@ pub(crate) fn load<M: Module>(path: &Path, network: M) -> Result<(M, Adam, Stand
     };
     let network = network.map(&mut loader);
     if let Some(name) = loader.missing {
-        return Err(broken(&format!("weight {name} is missing or has another size")));
+        return Err(broken(&format!(
+            "weight {name} is missing or has another size"
+        )));
     }
     let mut adam = Adam {
         step: i32::try_from(standing.step).unwrap_or(i32::MAX),
@@ -92,7 +94,9 @@ pub(crate) fn load<M: Module>(path: &Path, network: M) -> Result<(M, Adam, Stand
         .filter_map(|name| name.strip_prefix("moment0/").map(str::to_owned))
         .collect();
     for name in names {
-        let first = tensors.remove(&format!("moment0/{name}")).unwrap_or_default();
+        let first = tensors
+            .remove(&format!("moment0/{name}"))
+            .unwrap_or_default();
         let second = tensors
             .remove(&format!("moment1/{name}"))
             .filter(|second| second.len() == first.len())

@@ -1,11 +1,10 @@
 use normalight_core::CoreError;
-//use normalight_io::IoError;
 use normalight_model::ModelError;
 use normalight_synth::SynthError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// What can go wrong with a training run or an evaluation.
+/// What can go wrong with a training run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TrainError {
@@ -63,7 +62,6 @@ pub enum TrainError {
     /// Networks, weights or the pipeline.
     #[error(transparent)]
     Model(#[from] ModelError),
-    //IO
     /// Stacks and maps.
     #[error(transparent)]
     Core(#[from] CoreError),

@@ -1,4 +1,4 @@
-//! Training of both networks on rendered samples, and their evaluation on benchmarks.
+//! Training of both networks on rendered samples.
 #![deny(missing_docs)]
 
 mod adam;
@@ -6,7 +6,6 @@ mod batch;
 mod checkpoint;
 mod curves;
 mod error;
-//mod evaluate;
 mod light_task;
 mod loader;
 mod normal_task;
@@ -15,6 +14,5 @@ mod run;
 mod task;
 
 pub use error::TrainError;
-//pub use evaluate::{EvaluationRow, EvaluationTable, evaluate_object};
 pub use recipe::{LightSettings, Network, NormalSettings, TrainRecipe};
 pub use run::{StepReport, TrainRun, train};

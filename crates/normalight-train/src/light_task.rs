@@ -4,7 +4,7 @@ use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, mean_light_error};
 use normalight_model::{LightNetwork, Quiet, Weights, estimate_lights};
-use normalight_synth::{Object, Sample};
+use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 
@@ -16,17 +16,14 @@ pub(crate) struct LightTask;
 
 impl Task for LightTask {
     type Network = LightNetwork;
+    const FRAMING: Framing = Framing::WholeObject;
 
     fn network(recipe: &TrainRecipe, device: &Device) -> Result<LightNetwork, TrainError> {
-        Ok(LightNetwork::new(&recipe.light.architecture, false, device)?)
-    }
-
-    fn object(recipe: &TrainRecipe, seed: u64) -> Object {
-        Object::draw(&recipe.scene, seed, recipe.size)
-    }
-
-    fn sample(recipe: &TrainRecipe, object: &Object, seed: u64, images: usize) -> Sample {
-        object.whole(&recipe.scene, seed, images)
+        Ok(LightNetwork::new(
+            &recipe.light.architecture,
+            false,
+            device,
+        )?)
     }
 
     fn append(recipe: &TrainRecipe, sample: &Sample, _seed: u64, batch: &mut Batch) {
@@ -38,7 +35,9 @@ impl Task for LightTask {
             let factor = 1.0 / mean.max(1e-12);
             batch.input.extend(image.iter().map(|value| value * factor));
             let mask = sample.mask.iter();
-            batch.input.extend(mask.map(|&inside| f32::from(u8::from(inside))));
+            batch
+                .input
+                .extend(mask.map(|&inside| f32::from(u8::from(inside))));
         }
         let bins = &recipe.light.architecture.bins;
         let brightness = sample.lights.iter().map(Light::mean_intensity);
@@ -87,9 +86,8 @@ impl Task for LightTask {
             expected.push((log.exp() * centres).sum_dim(1));
             from += count;
         }
-        let angle = |position: &Tensor<2>, count: usize| {
-            position.clone() * (PI / count as f32) - PI / 2.0
-        };
+        let angle =
+            |position: &Tensor<2>, count: usize| position.clone() * (PI / count as f32) - PI / 2.0;
         let azimuth = angle(&expected[0], azimuths);
         let elevation = angle(&expected[1], elevations);
         let flat = elevation.clone().cos();
@@ -107,7 +105,10 @@ impl Task for LightTask {
         // latter the middle slope serves as an approximation.
         let per_class = (bins.intensity.high / bins.intensity.low).ln() / intensities as f32;
         let logarithm = expected[2].clone() * per_class + bins.intensity.low.ln();
-        let error = (logarithm - column(classes + 3, classes + 4)).square().sum() / rows as f32;
+        let error = (logarithm - column(classes + 3, classes + 4))
+            .square()
+            .sum()
+            / rows as f32;
         loss + error * settings.intensity_weight
     }
 
@@ -119,7 +120,7 @@ impl Task for LightTask {
     ) -> Result<f32, TrainError> {
         let mut sum = 0.0;
         for sample in objects {
-            let (stack, mask) = sample.to_stack()?;
+            let (stack, mask) = (sample.to_stack()?, sample.to_mask());
             let lights = pollster::block_on(estimate_lights(
                 &recipe.light.architecture,
                 network,
@@ -136,7 +137,11 @@ impl Task for LightTask {
 
     fn bytes(recipe: &TrainRecipe, network: &LightNetwork) -> Result<Vec<u8>, TrainError> {
         let architecture = &recipe.light.architecture;
-        Ok(Weights::light_bytes(architecture, network, &BTreeMap::new())?)
+        Ok(Weights::light_bytes(
+            architecture,
+            network,
+            &BTreeMap::new(),
+        )?)
     }
 }
 

@@ -1,10 +1,10 @@
 use crate::TrainRecipe;
 use crate::batch::Batch;
 use crate::task::Task;
-use normalight_synth::{Object, Sample};
+use normalight_synth::{Framing, Sample, render_sample};
 use std::sync::mpsc::{Receiver, sync_channel};
 
-/// Batches rendered ahead; a few bridge the moments when objects are drawn.
+/// Batches rendered ahead.
 const AHEAD: usize = 6;
 
 /// Seeds of validation objects start here, far from any training object.
@@ -18,18 +18,9 @@ pub(crate) fn start<T: Task>(recipe: &TrainRecipe, first: usize) -> Receiver<Bat
     let (sender, receiver) = sync_channel(AHEAD);
     let recipe = recipe.clone();
     std::thread::spawn(move || {
-        let mut objects: Vec<Object> = Vec::new();
-        let mut generation = None;
         for step in first..recipe.steps {
-            let wanted = step / recipe.samples_per_object;
-            if generation != Some(wanted) {
-                objects = (0..recipe.batch)
-                    .map(|k| T::object(&recipe, seed(&recipe, wanted, k)))
-                    .collect();
-                generation = Some(wanted);
-            }
             // The receiver is gone when training stopped: nothing left to do.
-            if sender.send(batch::<T>(&recipe, &objects, step)).is_err() {
+            if sender.send(batch::<T>(&recipe, step)).is_err() {
                 return;
             }
         }
@@ -41,7 +32,7 @@ fn seed(recipe: &TrainRecipe, major: usize, minor: usize) -> u64 {
     (recipe.seed << 44) + (major * recipe.batch + minor) as u64
 }
 
-fn batch<T: Task>(recipe: &TrainRecipe, objects: &[Object], step: usize) -> Batch {
+fn batch<T: Task>(recipe: &TrainRecipe, step: usize) -> Batch {
     let [fewest, most] = recipe.images;
     // A cheap scramble of the step: any fixed order of counts would do.
     let images = fewest + step.wrapping_mul(2_654_435_761) / 7 % (most - fewest + 1);
@@ -53,9 +44,9 @@ fn batch<T: Task>(recipe: &TrainRecipe, objects: &[Object], step: usize) -> Batc
         input: Vec::new(),
         target: Vec::new(),
     };
-    for (k, object) in objects.iter().enumerate() {
+    for k in 0..recipe.batch {
         let seed = seed(recipe, step, k);
-        let sample = T::sample(recipe, object, seed, images);
+        let sample = render_sample(&recipe.scene, seed, images, recipe.size, T::FRAMING);
         T::append(recipe, &sample, seed, &mut batch);
         batch.samples += 1;
     }
@@ -67,7 +58,7 @@ pub(crate) fn validation_objects(recipe: &TrainRecipe, pixels: usize) -> Vec<Sam
     (0..recipe.validation_objects as u64)
         .map(|k| {
             let seed = VALIDATION_SEEDS + k;
-            Object::draw(&recipe.scene, seed, pixels).whole(&recipe.scene, seed, 12)
+            render_sample(&recipe.scene, seed, 12, pixels, Framing::WholeObject)
         })
         .collect()
 }

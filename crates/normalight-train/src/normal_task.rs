@@ -5,7 +5,7 @@ use burn::tensor::{Device, Tensor, TensorData};
 use glam::{Quat, Vec3};
 use normalight_core::{Light, normal_error};
 use normalight_model::{NormalNetwork, Quiet, Stage, Weights, estimate_normals};
-use normalight_synth::{Object, Sample};
+use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 
 /// The normal estimation network on crops, with lights that are a little wrong.
@@ -15,19 +15,11 @@ pub(crate) struct NormalTask;
 
 impl Task for NormalTask {
     type Network = NormalNetwork;
+    const FRAMING: Framing = Framing::Crop;
 
     fn network(recipe: &TrainRecipe, device: &Device) -> Result<NormalNetwork, TrainError> {
         let architecture = &recipe.normal.architecture;
         Ok(NormalNetwork::new(architecture, false, device)?)
-    }
-
-    fn object(recipe: &TrainRecipe, seed: u64) -> Object {
-        let pixels = Object::crop_pixels(&recipe.scene, seed).max(recipe.size);
-        Object::draw(&recipe.scene, seed, pixels)
-    }
-
-    fn sample(recipe: &TrainRecipe, object: &Object, seed: u64, images: usize) -> Sample {
-        object.crop(&recipe.scene, seed, images, recipe.size)
     }
 
     fn append(recipe: &TrainRecipe, sample: &Sample, seed: u64, batch: &mut Batch) {
@@ -50,7 +42,9 @@ impl Task for NormalTask {
         for (image, light) in sample.images.chunks_exact(3 * area).zip(&lights) {
             let factor = 1.0 / light.mean_intensity();
             let scaled = image.iter().zip(&scale);
-            batch.input.extend(scaled.map(|(value, scale)| value * factor * scale));
+            batch
+                .input
+                .extend(scaled.map(|(value, scale)| value * factor * scale));
             for component in light.direction.to_array() {
                 batch.input.extend(std::iter::repeat_n(component, area));
             }
@@ -97,7 +91,7 @@ impl Task for NormalTask {
     ) -> Result<f32, TrainError> {
         let mut sum = 0.0;
         for (index, sample) in objects.iter().enumerate() {
-            let (stack, mask) = sample.to_stack()?;
+            let (stack, mask) = (sample.to_stack()?, sample.to_mask());
             let lights = disturbed(recipe, &sample.lights, index as u64);
             let normals = pollster::block_on(estimate_normals(
                 &recipe.normal.architecture,
@@ -109,19 +103,26 @@ impl Task for NormalTask {
                 Stage::Normals,
                 &mut Quiet,
             ))?;
-            sum += normal_error(&normals, &sample.normal_map(), &mask)?.mean;
+            sum += normal_error(&normals, &sample.to_normal_map(), &mask)?.mean;
         }
         Ok((sum / objects.len() as f32).to_degrees())
     }
 
     fn bytes(recipe: &TrainRecipe, network: &NormalNetwork) -> Result<Vec<u8>, TrainError> {
         let architecture = &recipe.normal.architecture;
-        Ok(Weights::normal_bytes(architecture, network, &BTreeMap::new())?)
+        Ok(Weights::normal_bytes(
+            architecture,
+            network,
+            &BTreeMap::new(),
+        )?)
     }
 }
 
 fn mask_plane(sample: &Sample) -> impl Iterator<Item = f32> {
-    sample.mask.iter().map(|&inside| f32::from(u8::from(inside)))
+    sample
+        .mask
+        .iter()
+        .map(|&inside| f32::from(u8::from(inside)))
 }
 
 /// Lights as a light network would give them: each a little off, all a little off together, and

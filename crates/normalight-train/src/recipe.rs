@@ -30,9 +30,6 @@ pub struct TrainRecipe {
     pub images: [usize; 2],
     /// Side of the training pictures in pixels: crops for normals, whole objects for lights.
     pub size: usize,
-    /// Samples taken of an object before it is thrown away, each with new materials and lights.
-    #[serde(default = "defaults::samples_per_object")]
-    pub samples_per_object: usize,
     /// Highest learning rate of Adam.
     #[serde(default = "defaults::learning_rate")]
     pub learning_rate: f32,
@@ -125,9 +122,6 @@ mod defaults {
     pub(super) fn images() -> [usize; 2] {
         [6, 16]
     }
-    pub(super) fn samples_per_object() -> usize {
-        8
-    }
     pub(super) fn learning_rate() -> f32 {
         1e-3
     }
@@ -185,29 +179,69 @@ impl TrainRecipe {
         let [fewest, most] = self.images;
         check("steps", self.steps, 1, 100_000_000, "1 or more")?;
         check("batch", self.batch, 1, 1024, "1 to 1024")?;
-        check("images, fewest", fewest, 3, most, "3 or more, at most the most")?;
+        check(
+            "images, fewest",
+            fewest,
+            3,
+            most,
+            "3 or more, at most the most",
+        )?;
         check("images, most", most, fewest, 256, "at most 256")?;
         check("size", self.size, 16, 512, "16 to 512")?;
-        let field = "samples_per_object";
-        check(field, self.samples_per_object, 1, 1024, "1 to 1024")?;
         let many = 1_000_000_000;
         check("validate_every", self.validate_every, 1, many, "1 or more")?;
-        check("checkpoint_every", self.checkpoint_every, 1, many, "1 or more")?;
+        check(
+            "checkpoint_every",
+            self.checkpoint_every,
+            1,
+            many,
+            "1 or more",
+        )?;
         let field = "validation_objects";
         check(field, self.validation_objects, 1, 10_000, "1 to 10000")?;
-        check("learning_rate", self.learning_rate, 1e-9, 1.0, "above 0, at most 1")?;
+        check(
+            "learning_rate",
+            self.learning_rate,
+            1e-9,
+            1.0,
+            "above 0, at most 1",
+        )?;
         check("final_rate", self.final_rate, 0.0, 1.0, "0 to 1")?;
         check("clip", self.clip, 1e-6, 1e6, "above 0")?;
         let light = &self.light;
-        check("light.label_deviation", light.label_deviation, 0.1, 10.0, "0.1 to 10")?;
-        check("light.direction_weight", light.direction_weight, 0.0, 1e3, "0 to 1000")?;
-        check("light.intensity_weight", light.intensity_weight, 0.0, 1e3, "0 to 1000")?;
+        check(
+            "light.label_deviation",
+            light.label_deviation,
+            0.1,
+            10.0,
+            "0.1 to 10",
+        )?;
+        check(
+            "light.direction_weight",
+            light.direction_weight,
+            0.0,
+            1e3,
+            "0 to 1000",
+        )?;
+        check(
+            "light.intensity_weight",
+            light.intensity_weight,
+            0.0,
+            1e3,
+            "0 to 1000",
+        )?;
         let normal = &self.normal;
         let field = "normal.light_noise_degrees";
         check(field, normal.light_noise_degrees, 0.0, 45.0, "0 to 45")?;
         let field = "normal.light_drift_degrees";
         check(field, normal.light_drift_degrees, 0.0, 45.0, "0 to 45")?;
-        check("normal.intensity_noise", normal.intensity_noise, 0.0, 0.5, "0 to 0.5")?;
+        check(
+            "normal.intensity_noise",
+            normal.intensity_noise,
+            0.0,
+            0.5,
+            "0 to 0.5",
+        )?;
         self.scene.validate()?;
         self.light.architecture.validate()?;
         self.normal.architecture.validate()?;

@@ -2,7 +2,7 @@ use crate::batch::Batch;
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor};
-use normalight_synth::{Object, Sample};
+use normalight_synth::{Framing, Sample};
 
 /// What the loop needs to know of a network.
 pub(crate) trait Task: Sized {
@@ -12,11 +12,8 @@ pub(crate) trait Task: Sized {
     /// A network with random weights.
     fn network(recipe: &TrainRecipe, device: &Device) -> Result<Self::Network, TrainError>;
 
-    /// The object that samples are taken of.
-    fn object(recipe: &TrainRecipe, seed: u64) -> Object;
-
-    /// A sample of an object.
-    fn sample(recipe: &TrainRecipe, object: &Object, seed: u64, images: usize) -> Sample;
+    /// What the network is shown: whole objects or crops.
+    const FRAMING: Framing;
 
     /// Adds a sample to a batch.
     fn append(recipe: &TrainRecipe, sample: &Sample, seed: u64, batch: &mut Batch);
@@ -25,8 +22,12 @@ pub(crate) trait Task: Sized {
     fn channels(recipe: &TrainRecipe) -> usize;
 
     /// Loss of a batch: `[1]`.
-    fn loss(recipe: &TrainRecipe, network: &Self::Network, batch: &Batch, device: &Device)
-    -> Tensor<1>;
+    fn loss(
+        recipe: &TrainRecipe,
+        network: &Self::Network,
+        batch: &Batch,
+        device: &Device,
+    ) -> Tensor<1>;
 
     /// Mean error in degrees on whole unseen objects, through the pipeline that users run.
     fn validate(

@@ -1,0 +1,196 @@
+//! Networks against closed forms and against an independent backend.
+
+use burn::module::Module;
+use burn::tensor::{Device, Distribution, Tensor};
+use normalight_core::{
+    Decoding, ImageStack, Mask, Samples, StackImage, Transfer, Vec3, mean_light_error, normal_error,
+};
+use normalight_model::{
+    CellLight, CellNormal, EstimateSettings, Estimator, LightArchitecture, LightBody, LightNetwork,
+    ModelError, NormalArchitecture, NormalBody, NormalNetwork, Quiet, Upsampling, Weights,
+    light_parameters, normal_parameters, paper_genotypes,
+};
+use std::collections::BTreeMap;
+
+fn paper_light() -> LightArchitecture {
+    LightArchitecture {
+        body: LightBody::Cells(CellLight {
+            width: 4,
+            stem_strides: [1, 2],
+            hidden: 32,
+            genotype: paper_genotypes().light.unwrap(),
+        }),
+        ..LightArchitecture::plain()
+    }
+}
+
+fn paper_normal(upsampling: Upsampling, stem_strides: [usize; 2]) -> NormalArchitecture {
+    NormalArchitecture {
+        mask_channel: stem_strides[1] == 1,
+        body: NormalBody::Cells(CellNormal {
+            width: 4,
+            stem_strides,
+            upsampling,
+            fused_convolutions: stem_strides[1],
+            genotype: paper_genotypes().normal.unwrap(),
+        }),
+    }
+}
+
+#[test]
+fn layers_have_the_parameters_of_the_closed_form() {
+    let device = Device::flex();
+    for architecture in [LightArchitecture::plain(), paper_light()] {
+        let network = LightNetwork::new(&architecture, false, &device).unwrap();
+        let expected = light_parameters(&architecture) + running_statistics(&network);
+        assert_eq!(network.num_params(), expected);
+    }
+    for architecture in [
+        NormalArchitecture::plain(),
+        paper_normal(Upsampling::Nearest, [1, 2]),
+        paper_normal(Upsampling::Transposed, [1, 1]),
+    ] {
+        let network = NormalNetwork::new(&architecture, false, &device).unwrap();
+        let expected = normal_parameters(&architecture) + running_statistics(&network);
+        assert_eq!(network.num_params(), expected);
+    }
+}
+
+/// Values that batch normalisation keeps beside its parameters: Burn counts them too.
+fn running_statistics<M: Module>(network: &M) -> usize {
+    struct Counter {
+        path: Vec<String>,
+        count: usize,
+    }
+    impl burn::module::ModuleVisitor for Counter {
+        fn enter_module(&mut self, name: &str, _container: &str) {
+            self.path.push(name.to_owned());
+        }
+        fn exit_module(&mut self, _name: &str, _container: &str) {
+            self.path.pop();
+        }
+        fn visit_float<const D: usize>(&mut self, param: &burn::module::Param<Tensor<D>>) {
+            if self
+                .path
+                .last()
+                .is_some_and(|name| name.starts_with("running"))
+            {
+                self.count += param.shape().num_elements();
+            }
+        }
+    }
+    let mut counter = Counter {
+        path: Vec::new(),
+        count: 0,
+    };
+    network.visit(&mut counter);
+    counter.count
+}
+
+#[test]
+fn folding_keeps_the_function() {
+    let device = Device::flex();
+    let architecture = paper_normal(Upsampling::Nearest, [1, 2]);
+    let network = NormalNetwork::new(&architecture, false, &device).unwrap();
+    let input = Tensor::<4>::random([2, 6, 16, 24], Distribution::Default, &device);
+    let run = |network: &NormalNetwork| network.regress(network.features(input.clone()).max_dim(0));
+    let difference = (run(&network) - run(&network.folded())).abs().max();
+    assert!(difference.into_scalar::<f32>() < 1e-4);
+}
+
+#[test]
+fn weights_come_back_and_wrong_files_are_refused() {
+    let device = Device::flex();
+    let architecture = LightArchitecture::plain();
+    let network = LightNetwork::new(&architecture, false, &device).unwrap();
+    let bytes = Weights::light_bytes(&architecture, &network, &BTreeMap::new()).unwrap();
+    let weights = Weights::from_bytes("light.safetensors", &bytes).unwrap();
+    let (read, loaded) = weights.light_network(&device).unwrap();
+    assert_eq!(read, architecture);
+    let input = Tensor::<4>::random([3, 4, 64, 64], Distribution::Default, &device);
+    let run = |network: &LightNetwork| {
+        let own = network.features(input.clone());
+        let fused = own.clone().max_dim(0).expand(own.dims());
+        network.classify(own, fused)
+    };
+    // Half precision keeps three digits.
+    let difference = (run(&network) - run(&loaded))
+        .abs()
+        .max()
+        .into_scalar::<f32>();
+    assert!(difference < 1e-2, "{difference}");
+    let error = weights.normal_network(&device).unwrap_err().to_string();
+    assert!(
+        error.contains("holds a light network, a normal network"),
+        "{error}"
+    );
+    for broken in [&bytes[..bytes.len() / 2], b"not a file", &[]] {
+        let error = Weights::from_bytes("w.safetensors", broken).unwrap_err();
+        assert!(
+            matches!(error, ModelError::CorruptWeights { .. }),
+            "{error}"
+        );
+    }
+}
+
+/// A Lambertian hemisphere under eight lights.
+fn stack() -> (ImageStack, Mask) {
+    let side = 40;
+    let normal = |index: usize| {
+        let x = (index % side) as f32 / 20.0 - 0.975;
+        let y = 0.975 - (index / side) as f32 / 20.0;
+        let square = 1.0 - x * x - y * y;
+        (square > 0.0).then(|| Vec3::new(x, y, square.sqrt()))
+    };
+    let images = (0..8)
+        .map(|k| {
+            let turn = k as f32 * 0.8;
+            let light = Vec3::new(0.5 * turn.cos(), 0.5 * turn.sin(), 0.8).normalize();
+            let shade = |index| normal(index).map_or(0.0, |n| n.dot(light).max(0.0));
+            StackImage {
+                name: format!("{k}.png"),
+                width: side,
+                height: side,
+                channels: 1,
+                samples: Samples::F32((0..side * side).map(shade).collect()),
+                transfer: Transfer::Linear,
+            }
+        })
+        .collect();
+    let inside = (0..side * side)
+        .map(|index| normal(index).is_some())
+        .collect();
+    (
+        ImageStack::new(images).unwrap(),
+        Mask::new(side, side, inside),
+    )
+}
+
+#[test]
+fn both_backends_give_one_answer() {
+    let device = Device::flex();
+    let (light, normal) = (LightArchitecture::plain(), NormalArchitecture::plain());
+    let notes = BTreeMap::new();
+    let network = LightNetwork::new(&light, false, &device).unwrap();
+    let light = Weights::light_bytes(&light, &network, &notes).unwrap();
+    let network = NormalNetwork::new(&normal, false, &device).unwrap();
+    let normal = Weights::normal_bytes(&normal, &network, &notes).unwrap();
+    let light = Weights::from_bytes("light", &light).unwrap();
+    let normal = Weights::from_bytes("normal", &normal).unwrap();
+    let (stack, mask) = stack();
+    let settings = EstimateSettings {
+        decoding: Decoding::SoftArgmax,
+        ..EstimateSettings::default()
+    };
+    let run = |device: Device| {
+        let estimator = Estimator::new(&light, &normal, device).unwrap();
+        let estimate = estimator.estimate(&stack, &mask, None, settings, &mut Quiet);
+        pollster::block_on(estimate).unwrap()
+    };
+    let (fast, reference) = (run(Device::flex()), run(Device::ndarray()));
+    let lights = mean_light_error(&fast.lights, &reference.lights).unwrap();
+    assert!(lights.to_degrees() < 0.1, "{lights}");
+    let normals = normal_error(&fast.normals, &reference.normals, &mask).unwrap();
+    assert!(normals.mean.to_degrees() < 0.1, "{}", normals.mean);
+    assert_eq!(normals.pixels, mask.count());
+}
