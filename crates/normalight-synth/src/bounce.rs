@@ -1,5 +1,5 @@
 use crate::brdf::Surface;
-use crate::trace::View;
+use crate::view::View;
 use glam::Vec3;
 use normalight_core::Light;
 use std::f32::consts::PI;

@@ -1,7 +1,7 @@
 use crate::random::Random;
 use crate::recipe::ShapeRecipe;
 use crate::shape::Shape;
-use crate::trace::{Detail, View, Window};
+use crate::view::{Detail, View, Window};
 
 /// Longer side in pixels of the first look at a whole object, which finds where it is.
 const COARSE_SCOUT: usize = 32;
@@ -54,9 +54,9 @@ pub(crate) fn frame(
     match framing {
         Framing::WholeObject => {
             let margin = random.range(recipe.margin[0], recipe.margin[1]);
-            let window = square(x, y, side / (1.0 - 2.0 * margin), size);
+            let side = side / (1.0 - 2.0 * margin);
             Framed {
-                view: View::trace(shape, window, Detail::DepthAndNormals),
+                view: whole(shape, x, y, side, size),
                 overview: None,
             }
         }
@@ -72,6 +72,18 @@ pub(crate) fn frame(
                 overview: around.map(|_| scout),
             }
         }
+    }
+}
+
+/// The whole object; the coarse scout may have overlooked a thin tip, which must not be cut off.
+fn whole(shape: &Shape, x: f32, y: f32, mut side: f32, size: usize) -> View {
+    loop {
+        let view = View::trace(shape, square(x, y, side, size), Detail::DepthAndNormals);
+        // A window that holds the whole shape can only touch it in tiny images.
+        if !view.touches_border() || side > 3.0 * shape.reach() {
+            return view;
+        }
+        side *= 1.08;
     }
 }
 
@@ -122,6 +134,15 @@ fn square(x: f32, y: f32, side: f32, pixels: usize) -> Window {
 }
 
 impl View {
+    fn touches_border(&self) -> bool {
+        let (width, height) = (self.window.width, self.window.height);
+        (0..self.depth.len()).any(|pixel| {
+            let (row, column) = (pixel / width, pixel % width);
+            let border = row == 0 || column == 0 || row + 1 == height || column + 1 == width;
+            border && self.is_inside(pixel)
+        })
+    }
+
     /// Centre and longer side of what is seen.
     fn bounds(&self) -> Option<(f32, f32, f32)> {
         let width = self.window.width;

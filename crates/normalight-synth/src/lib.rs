@@ -19,6 +19,7 @@ mod noise;
 mod objects;
 mod part;
 mod random;
+mod ray;
 mod recipe;
 mod recipe_check;
 mod relief;
@@ -26,8 +27,8 @@ mod render;
 mod sample;
 mod shadow;
 mod shape;
-mod trace;
 mod vessels;
+mod view;
 
 pub use error::SynthError;
 pub use framing::Framing;

@@ -10,7 +10,7 @@ use crate::random::{Random, Stream};
 use crate::recipe::{SceneRecipe, TransportRecipe};
 use crate::sample::Sample;
 use crate::shadow::Shadows;
-use crate::trace::Detail;
+use crate::view::Detail;
 use glam::Vec3;
 use normalight_core::Light;
 

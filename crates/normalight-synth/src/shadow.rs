@@ -1,4 +1,4 @@
-use crate::trace::View;
+use crate::view::View;
 use glam::Vec3;
 
 /// How far behind its visible side an object is taken to be solid. The depth map knows only the
@@ -78,7 +78,7 @@ impl<'a> Shadows<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Window;
+    use crate::view::Window;
 
     /// A floor at z = 0 with a wall of height 1 on the left part, x < 0.
     fn wall() -> View {

@@ -147,7 +147,7 @@ fn woodham_recovers_matte_normals_from_the_exported_stack() {
     let (stack, mask) = (sample.to_stack().unwrap(), sample.to_mask());
     let (normals, _) = least_squares_normals(&stack, &mask, &sample.lights).unwrap();
     let error = normal_error(&normals, &sample.to_normal_map(), &mask).unwrap();
-    assert!(error.mean_degrees < 2.0, "{error:?}");
+    assert!(error.mean.to_degrees() < 2.0, "{error:?}");
 }
 
 #[test]

@@ -1,10 +1,10 @@
 use crate::noise::Lattice;
-use crate::shape::{Active, Shape};
+use crate::ray::{follow, tile_start};
+use crate::shape::Shape;
 use glam::Vec3;
 
 /// Rays of one tile share their start; pixels a side.
 const TILE: usize = 8;
-const MAX_STEPS: usize = 48;
 /// Flatter views of the surface than this cosine are left out of the mask: they are seen edge-on,
 /// where one pixel holds both object and background.
 const MIN_NORMAL_Z: f32 = 0.02;
@@ -67,6 +67,7 @@ impl View {
                 view.trace_tile(shape, lattice, row, column);
             }
         }
+        view.close_pinholes();
         if detail == Detail::DepthAndNormals {
             view.find_normals(shape);
         }
@@ -119,6 +120,21 @@ impl View {
         }
     }
 
+    /// Lays single pixels onto their neighbours where a ray got stuck in a crease.
+    fn close_pinholes(&mut self) {
+        let (width, height) = (self.window.width, self.window.height);
+        for row in 1..height.max(2) - 1 {
+            for column in 1..width.max(2) - 1 {
+                let pixel = row * width + column;
+                if !self.is_inside(pixel) && self.is_surrounded(row, column) {
+                    let across = self.depth[pixel - 1] + self.depth[pixel + 1];
+                    let along = self.depth[pixel - width] + self.depth[pixel + width];
+                    self.depth[pixel] = (across + along) / 4.0;
+                }
+            }
+        }
+    }
+
     /// Finds the normals from the gradient of the shape. Pixels seen edge-on leave the view, unless they are
     /// within the object, where a hole in the mask would be unlike any real mask.
     pub(crate) fn find_normals(&mut self, shape: &Shape) {
@@ -161,91 +177,6 @@ impl View {
             && (row == 0 || self.is_inside(pixel - width))
             && (row + 1 == height || self.is_inside(pixel + width))
     }
-}
-
-/// Height down to which all rays of a tile pass through empty space; `None` when they miss.
-fn tile_start(
-    shape: &Shape,
-    lattice: &Lattice,
-    active: Active,
-    x: f32,
-    y: f32,
-    radius: f32,
-) -> Option<f32> {
-    let mut z = shape.reach();
-    for _ in 0..MAX_STEPS {
-        let free = shape.distance(lattice, Vec3::new(x, y, z), active) * shape.step() - radius;
-        if free < 0.1 * radius {
-            break;
-        }
-        z -= free;
-        if z < -shape.reach() {
-            return None;
-        }
-    }
-    Some(z)
-}
-
-/// z of the first point of the surface on a ray towards negative z, within a fraction of `pitch`.
-fn follow(shape: &Shape, lattice: &Lattice, active: Active, ray: Vec3, pitch: f32) -> Option<f32> {
-    let distance_at = |z: f32| shape.distance(lattice, Vec3::new(ray.x, ray.y, z), active);
-    let tolerance = 0.03 * pitch;
-    let mut z = ray.z;
-    let (mut above, mut above_distance) = (z, f32::INFINITY);
-    for _ in 0..MAX_STEPS {
-        let distance = distance_at(z);
-        // The distance falls along the ray about as it did in the last step: that tells how far
-        // the surface is on slanted ground, where safe steps crawl.
-        let fall = (above_distance - distance) / (above - z);
-        if distance.abs() < tolerance {
-            let fall = if fall.is_finite() { fall } else { 1.0 };
-            return Some(z - distance / fall.clamp(0.1, 1.0));
-        }
-        if distance < 0.0 {
-            let (top, bottom) = ((above, above_distance), (z, distance));
-            return Some(between(distance_at, top, bottom, tolerance));
-        }
-        let safe = distance * shape.step();
-        (above, above_distance) = (z, distance);
-        z -= if fall > 0.0 && fall.is_finite() {
-            (distance / fall).clamp(safe, 3.0 * safe)
-        } else {
-            safe
-        };
-        if z < -shape.reach() {
-            return None;
-        }
-    }
-    // Rays that graze the surface crawl: near enough counts.
-    (above_distance < 0.3 * pitch).then_some(above)
-}
-
-/// z of the surface between a place above and one below it, each with its distance, by false
-/// position.
-fn between(
-    distance_at: impl Fn(f32) -> f32,
-    (mut above, mut over): (f32, f32),
-    (mut below, mut under): (f32, f32),
-    tolerance: f32,
-) -> f32 {
-    let mut z = below;
-    if !over.is_finite() {
-        // The ray began inside.
-        return z;
-    }
-    for _ in 0..4 {
-        z = above + (below - above) * (over / (over - under)).clamp(0.02, 0.98);
-        let found = distance_at(z);
-        if found.abs() < 0.3 * tolerance {
-            break;
-        }
-        if found > 0.0 {
-            (above, over) = (z, found);
-        } else {
-            (below, under) = (z, found);
-        }
-    }
-    z
 }
 
 #[cfg(test)]
