@@ -112,8 +112,8 @@ impl LightView {
         for image in 0..stack.len() {
             stack.linear_tile(image, self.rect, &mut tile);
             for plane in tile.chunks_exact(area) {
-                let plane_sum: f32 = plane.iter().zip(&self.inside).map(|(v, m)| v * m).sum();
-                sum += f64::from(plane_sum);
+                let lit = plane.iter().zip(&self.inside);
+                sum += lit.map(|(v, m)| f64::from(v * m)).sum::<f64>();
             }
         }
         let count: f32 = self.inside.iter().sum();
