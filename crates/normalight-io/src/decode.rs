@@ -3,6 +3,7 @@ use crate::limits::{MAX_DECODE_BYTES, MAX_PIXELS};
 use crate::{IoError, jpeg};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use normalight_core::{Mask, Samples, StackImage, Transfer, luminance};
+use std::fmt;
 use std::io::Cursor;
 
 /// How the samples of photographs are taken to relate to light.
@@ -15,6 +16,17 @@ pub enum ColorMode {
     Linear,
     /// All integer samples are sRGB; floating-point ones stay linear.
     Srgb,
+}
+
+impl fmt::Display for ColorMode {
+    /// The word of the command line and of `report.json`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            ColorMode::Auto => "auto",
+            ColorMode::Linear => "linear",
+            ColorMode::Srgb => "srgb",
+        })
+    }
 }
 
 /// A decoded image: its colours, and its transparency when it has any.

@@ -6,20 +6,20 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum IoError {
     /// A file or folder cannot be read.
-    #[error("{name}: cannot be read: {source}")]
+    #[error("{name}: cannot be read: {reason}")]
     Read {
         /// Path of the file or folder.
         name: String,
         /// What the system said.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// A file or folder cannot be written.
-    #[error("{name}: cannot be written: {source}")]
+    #[error("{name}: cannot be written: {reason}")]
     Write {
         /// Path of the file or folder.
         name: String,
         /// What the system said.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// A file was given that is no image by its content or its extension.
     #[error("{name}: found {found}, expected an image ({expected})")]
@@ -37,7 +37,7 @@ pub enum IoError {
         /// The file.
         name: String,
         /// Format of the content.
-        found: String,
+        found: &'static str,
         /// Format that the extension promises.
         expected: &'static str,
     },
@@ -87,12 +87,22 @@ pub enum IoError {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// Too few images were found in a place, or too few were asked for.
+    /// Too few images were found in a place.
     #[error("{name}: {found} image(s) found, at least {expected} are needed")]
     TooFewImages {
         /// The folder or list, or "the given files".
         name: String,
         /// Number of images.
+        found: usize,
+        /// Smallest number that works.
+        expected: usize,
+    },
+    /// Fewer images were asked for than photometric stereo works with.
+    #[error("{name}: {found} image(s) were asked for, at least {expected} are needed")]
+    TooFewRequested {
+        /// The folder or list, or "the given files".
+        name: String,
+        /// Number of images asked for.
         found: usize,
         /// Smallest number that works.
         expected: usize,

@@ -32,6 +32,17 @@ pub(crate) fn format_of_extension(name: &str) -> Option<ImageFormat> {
     )
 }
 
+/// Whether a file's extension is neither that of an image nor of a text beside images.
+pub(crate) fn is_foreign(name: &str) -> bool {
+    let extension = split_extension(name).1;
+    let text = ["txt", "lp", "csv", "mat", "json"];
+    format_of_extension(name).is_none()
+        && !base_name(name).starts_with('.')
+        && !text
+            .iter()
+            .any(|known| extension.eq_ignore_ascii_case(known))
+}
+
 /// How people call a format.
 pub(crate) fn format_name(format: ImageFormat) -> &'static str {
     match format {
@@ -47,32 +58,38 @@ pub(crate) fn format_name(format: ImageFormat) -> &'static str {
     }
 }
 
+/// The error for a file whose extension is that of no image.
+pub(crate) fn not_an_image(name: &str) -> IoError {
+    let extension = split_extension(name).1;
+    IoError::NotAnImage {
+        name: name.to_owned(),
+        found: format!("a file with extension {extension:?}"),
+        expected: READ_FORMATS,
+    }
+}
+
 /// The format of a file, on which its extension and its first bytes must agree.
 ///
 /// TGA has no mark at its beginning: there the extension decides, unless the content is marked as
 /// another format.
 pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
-    let not_an_image = |found: String| IoError::NotAnImage {
+    let promised = format_of_extension(name).ok_or_else(|| not_an_image(name))?;
+    let found = match image::guess_format(bytes) {
+        Ok(found) if found == promised => return Ok(promised),
+        Ok(found) => {
+            return Err(IoError::WrongExtension {
+                name: name.to_owned(),
+                found: format_name(found),
+                expected: format_name(promised),
+            });
+        }
+        Err(_) if bytes.is_empty() => "an empty file".to_owned(),
+        Err(_) if promised == ImageFormat::Tga => return Ok(promised),
+        Err(_) => format!("content that is not {}", format_name(promised)),
+    };
+    Err(IoError::NotAnImage {
         name: name.to_owned(),
         found,
         expected: READ_FORMATS,
-    };
-    let Some(promised) = format_of_extension(name) else {
-        let (_, extension) = split_extension(name);
-        return Err(not_an_image(format!("a file with extension {extension:?}")));
-    };
-    match image::guess_format(bytes) {
-        Ok(found) if found == promised => Ok(promised),
-        Ok(found) => Err(IoError::WrongExtension {
-            name: name.to_owned(),
-            found: format_name(found).to_owned(),
-            expected: format_name(promised),
-        }),
-        Err(_) if promised == ImageFormat::Tga => Ok(promised),
-        Err(_) if bytes.is_empty() => Err(not_an_image("an empty file".to_owned())),
-        Err(_) => Err(not_an_image(format!(
-            "content that is not {}",
-            format_name(promised)
-        ))),
-    }
+    })
 }

@@ -1,35 +1,43 @@
 //! Bytes to words and back: image stacks, masks, light files, DiLiGenT folders, exports.
 //!
-//! Everything works on bytes in memory, so the browser uses the same code; only [`folder`] and
-//! [`diligent`] touch files, and they do not exist there. Bytes from outside never panic and
-//! never take memory beyond the limits stated here.
+//! Everything works on bytes in memory, so the browser uses the same code; the functions that take
+//! paths do not exist there. Bytes from outside never panic and never take memory beyond the limits
+//! stated here.
 #![deny(missing_docs)]
 
 mod decode;
 mod error;
 mod format;
+mod input;
 mod jpeg;
+mod light_exports;
+mod light_file;
 mod light_map;
 mod light_text;
-mod lights;
 mod limits;
 mod maps;
 mod plan;
+mod previews;
 mod report;
 mod stack;
 
 #[cfg(not(target_arch = "wasm32"))]
-pub mod diligent;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod folder;
+mod native;
 
 pub use decode::{ColorMode, DecodedImage, decode_image, decode_mask};
 pub use error::IoError;
+pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
+pub use light_exports::{lights_csv, lights_lp};
+pub use light_file::read_lights;
 pub use light_map::lights_svg;
-pub use light_text::{combine_lights, parse_directions, parse_intensities};
-pub use lights::{lights_csv, lights_lp, read_lights};
 pub use limits::{MAX_FILE_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES};
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
+#[cfg(not(target_arch = "wasm32"))]
+pub use native::{
+    DiligentObject, list_diligent_objects, read_diligent_object, read_lights_path, read_named,
+    read_paths, write_files,
+};
 pub use plan::{StackPlan, find_list, plan_stack};
-pub use report::{Report, StageSeconds, WeightHashes};
-pub use stack::{MaskChoice, NamedBytes, StackInput, StackOptions, read_stack};
+pub use previews::{albedo_rgba, normals_rgba};
+pub use report::{Report, StageSeconds, WeightHashes, report_json};
+pub use stack::read_stack;

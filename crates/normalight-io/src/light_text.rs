@@ -1,90 +1,25 @@
-//! Lights as lines of numbers: DiLiGenT, UW and `.lp` files.
+//! The lines of light files.
 use crate::IoError;
 use crate::stack::read_text;
+use csv::{Position, ReaderBuilder, Trim};
 use normalight_core::{Light, Vec3};
+use serde::{Deserialize, Serialize};
 
-/// Unit directions (x right, y up, z to the camera) from text: three numbers on each line,
-/// optionally a first line with their count, as DiLiGenT's `light_directions.txt` and UW's
-/// `lights.txt` have them.
-///
-/// # Errors
-/// [`IoError::LightFormat`] for lines that are not three numbers or vectors without a direction;
-/// [`IoError::LightCount`] when the file's own count is wrong.
-pub fn parse_directions(name: &str, bytes: &[u8]) -> Result<Vec<Vec3>, IoError> {
-    let rows = parse_rows(name, bytes)?;
-    rows.iter()
-        .map(|row| match row.file {
-            None => row.direction(name),
-            Some(_) => Err(row.wrong(name, "only the three numbers x y z")),
-        })
-        .collect()
-}
-
-/// Intensities per colour channel from text: three numbers on each line, or one for grey.
-///
-/// # Errors
-/// [`IoError::LightFormat`] for other lines and for values that are not above zero.
-pub fn parse_intensities(name: &str, bytes: &[u8]) -> Result<Vec<[f32; 3]>, IoError> {
-    let rows = parse_lines(name, bytes)?;
-    rows.iter()
-        .map(|row| {
-            let intensity = match row.numbers[..] {
-                _ if row.file.is_some() => return Err(row.wrong(name, "only intensities")),
-                [grey] => [grey; 3],
-                [r, g, b] => [r, g, b],
-                _ => return Err(row.wrong(name, "one or three intensities")),
-            };
-            check_intensity(intensity).ok_or_else(|| row.wrong(name, "intensities above zero"))
-        })
-        .collect()
-}
-
-/// Lights from directions and intensities of the same images, confidence 1.
-///
-/// # Errors
-/// [`IoError::LightCount`] (naming `intensities_name`) when there are more or fewer intensities
-/// than directions.
-pub fn combine_lights(
-    directions: &[Vec3],
-    intensities_name: &str,
-    intensities: &[[f32; 3]],
-) -> Result<Vec<Light>, IoError> {
-    check_count(intensities_name, intensities.len(), directions.len())?;
-    Ok(directions
-        .iter()
-        .zip(intensities)
-        .map(|(&direction, &intensity)| Light {
-            intensity,
-            ..Light::new(direction, 1.0)
-        })
-        .collect())
-}
-
-pub(crate) fn check_count(name: &str, found: usize, expected: usize) -> Result<(), IoError> {
-    if found == expected {
-        return Ok(());
-    }
-    Err(IoError::LightCount {
-        name: name.to_owned(),
-        found,
-        expected,
-    })
-}
-
-pub(crate) fn check_intensity(intensity: [f32; 3]) -> Option<[f32; 3]> {
-    let good = |value: &f32| value.is_finite() && *value > 0.0;
-    intensity.iter().all(good).then_some(intensity)
-}
-
-pub(crate) fn check_direction(vector: Vec3) -> Option<Vec3> {
-    // Rejects zero, NaN, infinity and vectors too short to have a direction.
-    vector.try_normalize()
+/// One line of `lights.csv`.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct CsvRow {
+    pub(crate) file: String,
+    pub(crate) x: f32,
+    pub(crate) y: f32,
+    pub(crate) z: f32,
+    pub(crate) intensity: f32,
+    pub(crate) confidence: f32,
 }
 
 /// One line of numbers, with the file name that may stand before them.
 pub(crate) struct Row {
     pub(crate) file: Option<String>,
-    numbers: Vec<f32>,
+    pub(crate) numbers: Vec<f32>,
     line: usize,
     text: String,
 }
@@ -98,17 +33,12 @@ impl Row {
             .ok_or_else(|| self.wrong(name, "a finite vector that is not zero"))
     }
 
-    fn wrong(&self, name: &str, expected: &str) -> IoError {
-        IoError::LightFormat {
-            name: name.to_owned(),
-            line: self.line,
-            found: self.text.chars().take(80).collect(),
-            expected: expected.to_owned(),
-        }
+    pub(crate) fn wrong(&self, name: &str, expected: &str) -> IoError {
+        wrong_line(name, self.line, &self.text, expected)
     }
 }
 
-/// The lines of a light file whose first line may be the number of lines after it.
+/// Lines of `x y z` or `file x y z`, whose first may be the number of lines after it.
 pub(crate) fn parse_rows(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
     let mut rows = parse_lines(name, bytes)?;
     let declared = rows
@@ -122,7 +52,79 @@ pub(crate) fn parse_rows(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> 
     Ok(rows)
 }
 
-fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
+/// Our own `lights.csv`.
+pub(crate) fn parse_csv(name: &str, bytes: &[u8]) -> Result<Vec<(Option<String>, Light)>, IoError> {
+    let text = read_text(name, bytes)?;
+    let mut reader = ReaderBuilder::new()
+        .trim(Trim::All)
+        .from_reader(text.as_bytes());
+    let failed = |position: Option<&Position>, error: &csv::Error| {
+        let line = position.map_or(0, Position::line) as usize;
+        let expected = "file,x,y,z,intensity,confidence";
+        wrong_line(name, line, &error.to_string(), expected)
+    };
+    let header = reader.headers().map_err(|e| failed(e.position(), &e))?;
+    let header = header.clone();
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|e| failed(e.position(), &e))?;
+        let row: CsvRow = record
+            .deserialize(Some(&header))
+            .map_err(|e| failed(record.position(), &e))?;
+        let wrong = |found: String, expected| {
+            let line = record.position().map_or(0, Position::line) as usize;
+            wrong_line(name, line, &found, expected)
+        };
+        let vector = Vec3::new(row.x, row.y, row.z);
+        let direction = check_direction(vector)
+            .ok_or_else(|| wrong(vector.to_string(), "a finite vector that is not zero"))?;
+        if !is_intensity(row.intensity) {
+            return Err(wrong(row.intensity.to_string(), "an intensity above zero"));
+        }
+        if !(0.0..=1.0).contains(&row.confidence) {
+            return Err(wrong(row.confidence.to_string(), "a confidence in 0..1"));
+        }
+        let light = Light {
+            confidence: row.confidence,
+            ..Light::new(direction, row.intensity)
+        };
+        rows.push((Some(row.file), light));
+    }
+    Ok(rows)
+}
+
+pub(crate) fn check_count(name: &str, found: usize, expected: usize) -> Result<(), IoError> {
+    if found == expected {
+        return Ok(());
+    }
+    Err(IoError::LightCount {
+        name: name.to_owned(),
+        found,
+        expected,
+    })
+}
+
+pub(crate) fn is_intensity(value: f32) -> bool {
+    value.is_finite() && value > 0.0
+}
+
+fn check_direction(vector: Vec3) -> Option<Vec3> {
+    // In double precision neither tiny nor huge finite vectors lose their direction.
+    let unit = vector.as_dvec3().try_normalize()?.as_vec3();
+    unit.is_finite().then_some(unit)
+}
+
+fn wrong_line(name: &str, line: usize, found: &str, expected: &str) -> IoError {
+    IoError::LightFormat {
+        name: name.to_owned(),
+        line,
+        found: found.chars().take(80).collect(),
+        expected: expected.to_owned(),
+    }
+}
+
+/// Lines of numbers, alone or after a file name.
+pub(crate) fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
     let text = read_text(name, bytes)?;
     let mut rows = Vec::new();
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
@@ -135,17 +137,8 @@ fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
             .filter(|word| !word.is_empty())
             .collect();
         let (file, numbers) = match words.len() {
-            0..=3 => (None, parse_numbers(&words)),
-            // `name x y z`: the name may hold spaces and commas, but a number is a column too many.
-            _ => {
-                let mut last = line.rsplitn(4, char::is_whitespace);
-                let mut values: Vec<&str> = last.by_ref().take(3).collect();
-                values.reverse();
-                let file = last.next().map(|file| file.trim().to_owned());
-                let is_name = |file: &String| file.parse::<f32>().is_err();
-                let named = file.as_ref().is_some_and(is_name);
-                (file, parse_numbers(&values).filter(|_| named))
-            }
+            0..=3 => (None, parse_numbers(words)),
+            _ => parse_named(line),
         };
         let row = Row {
             file,
@@ -161,6 +154,23 @@ fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
     Ok(rows)
 }
 
-fn parse_numbers(words: &[&str]) -> Option<Vec<f32>> {
-    words.iter().map(|word| word.parse().ok()).collect()
+/// `name x y z`: the name may hold spaces and commas, but a number is a column too many.
+fn parse_named(line: &str) -> (Option<String>, Option<Vec<f32>>) {
+    let mut rest = line;
+    let mut values = Vec::with_capacity(3);
+    for _ in 0..3 {
+        let Some((before, word)) = rest.rsplit_once(char::is_whitespace) else {
+            return (None, None);
+        };
+        values.insert(0, word);
+        rest = before.trim_end();
+    }
+    if rest.parse::<f32>().is_ok() {
+        return (None, None);
+    }
+    (Some(rest.to_owned()), parse_numbers(values))
+}
+
+fn parse_numbers(words: Vec<&str>) -> Option<Vec<f32>> {
+    words.into_iter().map(|word| word.parse().ok()).collect()
 }

@@ -1,7 +1,8 @@
 //! Normal and albedo maps as files.
 use crate::IoError;
+use crate::previews::displayed_albedo;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
-use normalight_core::{CoreError, Mask, NormalMap, Transfer, Vec3};
+use normalight_core::{Mask, NormalMap, Vec3};
 use npyz::WriterBuilder;
 use std::io::Cursor;
 
@@ -15,22 +16,28 @@ pub enum NormalFormat {
     DirectX,
 }
 
+impl NormalFormat {
+    /// Components in this format, each in -1..1.
+    pub(crate) fn exported(self, normal: Vec3) -> [f32; 3] {
+        match self {
+            NormalFormat::OpenGl => [normal.x, normal.y, normal.z],
+            NormalFormat::DirectX => [normal.x, -normal.y, normal.z],
+        }
+    }
+}
+
 /// A normal map as 16-bit RGB PNG: `(n + 1) / 2 * 65535`, black outside the object.
 ///
 /// # Errors
 /// [`IoError::Encode`] for a map that PNG cannot hold (no pixels).
 pub fn normals_png(map: &NormalMap, format: NormalFormat) -> Result<Vec<u8>, IoError> {
-    let sign = match format {
-        NormalFormat::OpenGl => 1.0,
-        NormalFormat::DirectX => -1.0,
-    };
     let code = |value: f32| ((value + 1.0) / 2.0 * 65_535.0).round() as u16;
     let samples: Vec<u16> = map
         .normals()
         .iter()
         .flat_map(|&normal| match normal {
             Vec3::ZERO => [0; 3],
-            Vec3 { x, y, z } => [code(x), code(sign * y), code(z)],
+            normal => format.exported(normal).map(code),
         })
         .collect();
     let image =
@@ -69,36 +76,10 @@ pub fn normals_npy(map: &NormalMap) -> Result<Vec<u8>, IoError> {
 /// `planes`: `[3, height, width]`, linear, not negative; zero outside the object.
 ///
 /// # Errors
-/// [`CoreError::SampleCount`] when `planes` has another size; [`IoError::Encode`].
+/// [`CoreError::SampleCount`](normalight_core::CoreError::SampleCount) when `planes` has another
+/// size; [`IoError::Encode`].
 pub fn albedo_png(planes: &[f32], width: usize, height: usize) -> Result<Vec<u8>, IoError> {
-    let area = width * height;
-    if planes.len() != 3 * area {
-        return Err(IoError::Core(CoreError::SampleCount {
-            name: "albedo map".to_owned(),
-            found: planes.len(),
-            expected: 3 * area,
-        }));
-    }
-    let pixel = |index: usize| {
-        [
-            planes[index],
-            planes[area + index],
-            planes[2 * area + index],
-        ]
-    };
-    let mut brightest: Vec<f32> = (0..area)
-        .map(|index| pixel(index).into_iter().fold(0.0, f32::max))
-        .filter(|&value| value > 0.0 && value.is_finite())
-        .collect();
-    brightest.sort_by(f32::total_cmp);
-    let white = brightest
-        .get(brightest.len() * 99 / 100)
-        .copied()
-        .unwrap_or(1.0);
-    let samples: Vec<u8> = (0..area)
-        .flat_map(pixel)
-        .map(|value| (Transfer::Srgb.encode((value / white).clamp(0.0, 1.0)) * 255.0).round() as u8)
-        .collect();
+    let samples = displayed_albedo(planes, width, height)?.concat();
     let image = ImageBuffer::<Rgb<u8>, _>::from_raw(width as u32, height as u32, samples);
     png("albedo map", image.map(DynamicImage::ImageRgb8))
 }

@@ -89,7 +89,7 @@ pub fn plan_stack<S: AsRef<str>>(
 /// else the first `.txt` file whose lines are all image names (after an optional count).
 ///
 /// # Errors
-/// Those of `read_text`.
+/// Those of `read_text` for the first two.
 pub fn find_list<S: AsRef<str>>(
     names: &[S],
     mut read_text: impl FnMut(usize) -> Result<String, IoError>,
@@ -110,7 +110,8 @@ pub fn find_list<S: AsRef<str>>(
         .collect();
     texts.sort_by(|&a, &b| natord::compare(names[a].as_ref(), names[b].as_ref()));
     for index in texts {
-        let text = read_text(index)?;
+        // Any other text may lie here: one that cannot be read is no list.
+        let Ok(text) = read_text(index) else { continue };
         if parse_list("", &text).is_ok_and(|(_, entries)| !entries.is_empty()) {
             return Ok(Some((index, text)));
         }

@@ -6,10 +6,8 @@ use serde::{Deserialize, Serialize};
 pub struct Report {
     /// Version of the program.
     pub version: String,
-    /// The folders or files as given.
+    /// File names of the images used, in order.
     pub inputs: Vec<String>,
-    /// Names of the images used, in order.
-    pub images: Vec<String>,
     /// Width of the images in pixels.
     pub width: usize,
     /// Height of the images in pixels.
@@ -18,10 +16,10 @@ pub struct Report {
     pub mask: String,
     /// How samples were taken: auto, linear or srgb.
     pub color: String,
-    /// What computed the result.
-    pub device: String,
     /// Where the lights came from, in words.
     pub lights_from: String,
+    /// What computed the result.
+    pub device: String,
     /// Which weights were used.
     pub weights: WeightHashes,
     /// All settings, as the program names them.
@@ -48,17 +46,15 @@ pub struct StageSeconds {
     pub seconds: f64,
 }
 
-impl Report {
-    /// Readable JSON that ends with a line break.
-    ///
-    /// # Errors
-    /// [`IoError::Encode`] when the settings cannot be JSON.
-    pub fn to_json(&self) -> Result<Vec<u8>, IoError> {
-        let mut bytes = serde_json::to_vec_pretty(self).map_err(|error| IoError::Encode {
-            name: "report.json",
-            reason: error.to_string(),
-        })?;
-        bytes.push(b'\n');
-        Ok(bytes)
-    }
+/// `report.json`: readable, ending with a line break.
+///
+/// # Errors
+/// [`IoError::Encode`] when the settings cannot be JSON.
+pub fn report_json(report: &Report) -> Result<Vec<u8>, IoError> {
+    let mut bytes = serde_json::to_vec_pretty(report).map_err(|error| IoError::Encode {
+        name: "report.json",
+        reason: error.to_string(),
+    })?;
+    bytes.push(b'\n');
+    Ok(bytes)
 }

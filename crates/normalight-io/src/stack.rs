@@ -1,64 +1,21 @@
+//! From files to a stack; where the bytes come from is the caller's affair.
 use crate::decode::{decode_image, decode_mask};
+use crate::format::{base_name, is_foreign, not_an_image};
+use crate::input::mask_words;
 use crate::limits::{MAX_STACK_BYTES, MAX_TEXT_BYTES};
 use crate::plan::{StackPlan, find_list, plan_stack};
-use crate::{ColorMode, IoError};
+use crate::{IoError, MaskChoice, NamedBytes, ReadOptions, StackInput};
 use normalight_core::{ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage};
 
-/// A file in memory.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NamedBytes {
-    /// File name; folders before it are allowed and ignored.
-    pub name: String,
-    /// Content.
-    pub bytes: Vec<u8>,
-}
-
-/// Where the mask shall come from.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum MaskChoice {
-    /// The mask among the files, else the transparency of the first image, else a guess.
-    #[default]
-    Auto,
-    /// Every pixel belongs to the object.
-    WholeFrame,
-    /// This image: inside is where it is brighter than half.
-    File(NamedBytes),
-}
-
-/// How a stack is read.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct StackOptions {
-    /// How samples relate to light.
-    pub color: ColorMode,
-    /// Where the mask comes from.
-    pub mask: MaskChoice,
-    /// Read only this many images, evenly spaced over the stack; all when `None` or too large.
-    pub images: Option<usize>,
-}
-
-/// A stack as read, ready for the pipeline.
-#[derive(Debug, Clone)]
-pub struct StackInput {
-    /// The images.
-    pub stack: ImageStack,
-    /// The object's pixels; checked to fit the stack and to have some light inside.
-    pub mask: Mask,
-    /// Where the mask came from.
-    pub mask_source: MaskSource,
-    /// Position of each read image among all images found: `0..found` unless
-    /// [`StackOptions::images`] chose some.
-    pub picked: Vec<usize>,
-    /// Number of images found, read or not.
-    pub found: usize,
-}
-
 /// Reads a stack from files in memory: images, and possibly a list and a mask, see
-/// [`plan_stack`]. Each file is dropped once it is decoded.
+/// [`plan_stack`]. Each file is dropped once it is decoded; files that are no images are ignored.
 ///
 /// # Errors
-/// Any [`IoError`] about a list or an image; [`IoError::Core`] for images of different sizes, NaN,
-/// a mask of another size, an empty mask or nothing but black.
-pub fn read_stack(files: Vec<NamedBytes>, options: StackOptions) -> Result<StackInput, IoError> {
+/// Any [`IoError`] about a list or an image; [`IoError::TooFewImages`] or
+/// [`IoError::TooFewRequested`]; [`IoError::NotAnImage`] when there are only other files;
+/// [`IoError::Core`] for images of different sizes, NaN, a mask of another size, an empty mask or
+/// nothing but black.
+pub fn read_stack(files: Vec<NamedBytes>, options: &ReadOptions) -> Result<StackInput, IoError> {
     let names: Vec<String> = files.iter().map(|file| file.name.clone()).collect();
     let list = find_list(&names, |index| {
         read_text(&names[index], &files[index].bytes)
@@ -91,85 +48,105 @@ pub(crate) fn assemble(
     place: &str,
     names: &[String],
     plan: StackPlan,
-    options: StackOptions,
+    options: &ReadOptions,
     mut load: impl FnMut(usize) -> Result<Vec<u8>, IoError>,
 ) -> Result<StackInput, IoError> {
-    let found = plan.images.len();
-    let count = options.images.map_or(found, |wanted| wanted.min(found));
-    if count < MIN_IMAGES {
-        return Err(IoError::TooFewImages {
-            name: place.to_owned(),
-            found: count,
-            expected: MIN_IMAGES,
-        });
-    }
-    let picked: Vec<usize> = (0..count).map(|k| k * found / count).collect();
-    let mut images: Vec<StackImage> = Vec::with_capacity(count);
+    let picked = pick(place, names, &plan, options.images)?;
+    let mut images: Vec<StackImage> = Vec::with_capacity(picked.len());
     let mut alpha = None;
-    let mut total = 0u64;
+    let mut total = 0;
     for &position in &picked {
         let index = plan.images[position];
         let decoded = decode_image(&names[index], &load(index)?, options.color)?;
+        let image = StackImage {
+            name: base_name(&names[index]).to_owned(),
+            ..decoded.image
+        };
+        // The images may differ in depth, so the sum is watched as well as the forecast.
+        total += sample_bytes(&image);
+        let forecast = sample_bytes(&image) * picked.len() as u64;
+        let need = if images.is_empty() { forecast } else { total };
+        check_total(&image, picked.len(), need)?;
         if images.is_empty() {
             alpha = decoded.alpha;
-            check_total(
-                &decoded.image,
-                count,
-                sample_bytes(&decoded.image) * count as u64,
-            )?;
         }
-        // The images may differ in depth, so the sum is watched as well as the forecast.
-        total += sample_bytes(&decoded.image);
-        check_total(&decoded.image, count, total)?;
-        images.push(decoded.image);
+        images.push(image);
     }
     let stack = ImageStack::new(images)?;
-    let given = match options.mask {
-        MaskChoice::WholeFrame => {
-            let mask = Mask::whole(stack.width(), stack.height());
-            return finish(stack, mask, MaskSource::WholeFrame, picked, found);
-        }
-        MaskChoice::File(file) => Some((file.name, file.bytes)),
+    let given = match &options.mask {
+        MaskChoice::WholeFrame => None,
+        MaskChoice::File(file) => Some((&file.name, decode_mask(&file.name, &file.bytes)?)),
         MaskChoice::Auto => match plan.mask {
-            Some(index) => Some((names[index].clone(), load(index)?)),
+            Some(index) => Some((&names[index], decode_mask(&names[index], &load(index)?)?)),
             None => None,
         },
     };
-    let (mask, source) = match (given, alpha) {
-        (Some((name, bytes)), _) => (decode_mask(&name, &bytes)?, MaskSource::File(name)),
+    let (mask, mask_source) = match (given, alpha) {
+        (Some((name, mask)), _) => (mask, MaskSource::File(base_name(name).to_owned())),
+        _ if options.mask == MaskChoice::WholeFrame => {
+            let whole = Mask::whole(stack.width(), stack.height());
+            (whole, MaskSource::WholeFrame)
+        }
         // Some programs write an alpha channel of zeros: that is no mask.
         (None, Some(mask)) if mask.count() > 0 => (mask, MaskSource::Alpha),
         (None, _) => (Mask::guess(&stack), MaskSource::Guessed),
     };
-    finish(stack, mask, source, picked, found)
-}
-
-fn finish(
-    stack: ImageStack,
-    mask: Mask,
-    mask_source: MaskSource,
-    picked: Vec<usize>,
-    found: usize,
-) -> Result<StackInput, IoError> {
-    let name = match &mask_source {
-        MaskSource::File(name) => name.as_str(),
-        MaskSource::Alpha => "transparency of the first image",
-        MaskSource::Guessed => "guessed mask",
-        MaskSource::WholeFrame => "whole frame",
-    };
-    let checked = stack.check_mask(&mask, name);
-    // A guess finds nothing only where there is no light: say that instead.
-    if mask_source == MaskSource::Guessed && checked.is_err() {
-        stack.check_mask(&Mask::whole(stack.width(), stack.height()), name)?;
-    }
-    checked?;
+    check_mask(&stack, &mask, &mask_source)?;
+    let all = plan.images.iter();
     Ok(StackInput {
         stack,
         mask,
         mask_source,
+        file_names: all
+            .map(|&index| base_name(&names[index]).to_owned())
+            .collect(),
         picked,
-        found,
     })
+}
+
+/// Positions in the plan of the images to read.
+fn pick(
+    place: &str,
+    names: &[String],
+    plan: &StackPlan,
+    wanted: Option<usize>,
+) -> Result<Vec<usize>, IoError> {
+    let found = plan.images.len();
+    if found == 0
+        && let Some(name) = names.iter().find(|name| is_foreign(name))
+    {
+        return Err(not_an_image(name));
+    }
+    let name = place.to_owned();
+    let expected = MIN_IMAGES;
+    if found < expected {
+        return Err(IoError::TooFewImages {
+            name,
+            found,
+            expected,
+        });
+    }
+    match wanted {
+        Some(found) if found < expected => Err(IoError::TooFewRequested {
+            name,
+            found,
+            expected,
+        }),
+        _ => {
+            let count = wanted.unwrap_or(found).min(found);
+            Ok((0..count).map(|k| k * found / count).collect())
+        }
+    }
+}
+
+fn check_mask(stack: &ImageStack, mask: &Mask, source: &MaskSource) -> Result<(), IoError> {
+    let name = mask_words(source);
+    let checked = stack.check_mask(mask, name);
+    // A guess finds nothing only where there is no light: say that instead.
+    if *source == MaskSource::Guessed && checked.is_err() {
+        stack.check_mask(&Mask::whole(stack.width(), stack.height()), name)?;
+    }
+    Ok(checked?)
 }
 
 fn sample_bytes(image: &StackImage) -> u64 {

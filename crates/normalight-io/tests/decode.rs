@@ -134,7 +134,7 @@ fn extension_and_content_must_agree() {
     for name in ["x/a.jpg", "a.TGA", "a.exr"] {
         let error = decode(name, &png).unwrap_err();
         assert!(
-            matches!(&error, IoError::WrongExtension { name: n, found, .. } if n == name && found == "PNG")
+            matches!(&error, IoError::WrongExtension { name: n, found, .. } if n == name && *found == "PNG")
         );
     }
     let error = decode("a.png", b"no image at all").unwrap_err();
@@ -194,6 +194,32 @@ fn huge_sizes_are_refused_from_the_header() {
         decode("big.png", &png),
         Err(IoError::TooManyPixels { .. })
     ));
+}
+
+/// As above for formats whose size is easily rewritten in a whole file.
+#[test]
+fn rewritten_sizes_are_refused() {
+    let mut bmp = sample(ImageFormat::Bmp);
+    bmp[18..22].copy_from_slice(&60_000i32.to_le_bytes());
+    bmp[22..26].copy_from_slice(&60_000i32.to_le_bytes());
+    let mut jpeg = sample(ImageFormat::Jpeg);
+    let frame = jpeg
+        .windows(2)
+        .position(|mark| mark == [0xFF, 0xC0])
+        .unwrap();
+    jpeg[frame + 5..frame + 9].fill(0xF0);
+    // Lossless WebP: 14 bits of width - 1 and 14 of height - 1 after the mark 0x2F.
+    let mut webp = sample(ImageFormat::WebP);
+    assert_eq!((&webp[12..16], webp[20]), (&b"VP8L"[..], 0x2F));
+    let size = 16_382u32 | 16_382 << 14 | u32::from(webp[24] & 0xF0) << 24;
+    webp[21..25].copy_from_slice(&size.to_le_bytes());
+    for (name, bytes) in [("a.bmp", bmp), ("a.jpg", jpeg), ("a.webp", webp)] {
+        let error = decode(name, &bytes).unwrap_err();
+        assert!(
+            matches!(&error, IoError::TooManyPixels { name: n, .. } if n == name),
+            "{error}"
+        );
+    }
 }
 
 /// The checksum of PNG chunks, bit by bit.

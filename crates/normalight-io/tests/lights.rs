@@ -1,9 +1,6 @@
 //! Light files: ours, `.lp`, DiLiGenT's and UW's.
 use normalight_core::{Light, Vec3, angle_between};
-use normalight_io::{
-    IoError, combine_lights, lights_csv, lights_lp, lights_svg, parse_directions,
-    parse_intensities, read_lights,
-};
+use normalight_io::{IoError, lights_csv, lights_lp, lights_svg, read_lights};
 
 fn three() -> (Vec<String>, Vec<Light>) {
     let names = ["a,\"b\".png", "spaced name 1.png", "c.png"].map(str::to_owned);
@@ -30,8 +27,8 @@ fn ours_round_trip() {
         text.starts_with("file,x,y,z,intensity,confidence\n\"a,\"\"b\"\".png\",0."),
         "{text}"
     );
-    let again = read_lights("lights.csv", &csv, 3, &names).unwrap();
-    let lp = read_lights("lights.lp", &lights_lp(&names, &lights).unwrap(), 3, &names).unwrap();
+    let again = read_lights("lights.csv", &csv, &names).unwrap();
+    let lp = read_lights("lights.lp", &lights_lp(&names, &lights).unwrap(), &names).unwrap();
     for (index, light) in lights.iter().enumerate() {
         assert_eq!(again[index].confidence, light.confidence);
         assert!((again[index].mean_intensity() - light.mean_intensity()).abs() < 1e-6);
@@ -39,13 +36,17 @@ fn ours_round_trip() {
         assert!(angle_between(lp[index].direction, light.direction) < 1e-5);
     }
     let reversed: Vec<String> = names.iter().rev().map(|name| format!("x/{name}")).collect();
-    let by_name = read_lights("lights.csv", &csv, 3, &reversed).unwrap();
+    let by_name = read_lights("lights.csv", &csv, &reversed).unwrap();
     assert_eq!(by_name[0], again[2]);
-    let by_order = read_lights("lights.csv", &csv, 3, &["other.png".to_owned()]).unwrap();
+    let by_order = read_lights(
+        "lights.csv",
+        &csv,
+        &["p.png", "q.png", "r.png"].map(str::to_owned),
+    )
+    .unwrap();
     assert_eq!(by_order, again);
-    assert!(parse_directions("l", b"a.png 0 0 1").is_err());
     let some = ["c.png", "new.png"].map(str::to_owned);
-    let error = read_lights("lights.csv", &csv, 2, &some).unwrap_err();
+    let error = read_lights("lights.csv", &csv, &some).unwrap_err();
     assert!(
         matches!(&error, IoError::LightFormat { expected, .. } if expected.contains("new.png"))
     );
@@ -56,24 +57,31 @@ fn lists_of_numbers() {
     let plain = b"0 0 2\n 0.6 0 0.8\r\n\n";
     let counted = b"2\n0 0 1\n0.6 0 0.8\n";
     for text in [&plain[..], &counted[..]] {
-        let lights = read_lights("lights.txt", text, 2, &[]).unwrap();
+        let lights = read_lights("lights.txt", text, &ab()).unwrap();
         assert!((lights[0].direction - Vec3::Z).length() < 1e-6);
         assert!((lights[1].direction.x - 0.6).abs() < 1e-6);
     }
-    let directions = parse_directions("light_directions.txt", plain).unwrap();
-    let intensities = parse_intensities("light_intensities.txt", b"1 2 3\n0.5\n").unwrap();
-    let lights = combine_lights(&directions, "light_intensities.txt", &intensities).unwrap();
-    assert_eq!(lights[0].intensity, [1.0, 2.0, 3.0]);
-    assert_eq!(lights[1].intensity, [0.5; 3]);
-    let error = combine_lights(&directions, "i.txt", &intensities[..1]).unwrap_err();
-    assert!(
-        matches!(&error, IoError::LightCount { name, found: 1, expected: 2 } if name == "i.txt")
+    let spaced = b"2\nx/a.png   0  0\t1\nb c.png  0.6 0   0.8\n";
+    let names = ["b c.png", "a.png"].map(str::to_owned);
+    let lights = read_lights("lights.lp", spaced, &names).unwrap();
+    assert!((lights[0].direction.x - 0.6).abs() < 1e-6);
+    // Tiny and huge vectors have a direction too.
+    let extreme = b"0 0 1e-30\n0 1e30 0\n";
+    let lights = read_lights("lights.txt", extreme, &ab()).unwrap();
+    assert_eq!(
+        [lights[0].direction, lights[1].direction],
+        [Vec3::Z, Vec3::Y]
     );
+}
+
+/// Two names that no file of these tests holds.
+fn ab() -> [String; 2] {
+    ["A.png", "B.png"].map(str::to_owned)
 }
 
 #[test]
 fn bad_lights_are_named() {
-    let read = |name: &str, text: &str| read_lights(name, text.as_bytes(), 2, &[]).unwrap_err();
+    let read = |name: &str, text: &str| read_lights(name, text.as_bytes(), &ab()).unwrap_err();
     let count = |error: IoError, wanted: usize| matches!(error, IoError::LightCount { found, expected: 2, .. } if found == wanted);
     assert!(count(read("l.txt", "0 0 1\n0 0 1\n0 0 1"), 3));
     assert!(count(read("l.txt", "2\n0 0 1"), 1));
@@ -109,12 +117,10 @@ fn bad_lights_are_named() {
             "{error}"
         );
     }
-    for bad in ["0 1 1", "-1", "nan", "1 2", "1 2 3 4"] {
-        assert!(matches!(
-            parse_intensities("i", bad.as_bytes()),
-            Err(IoError::LightFormat { .. })
-        ));
-    }
+    let error = read("l.csv", "x,y\n1,2\n");
+    assert!(
+        matches!(&error, IoError::LightFormat { expected, .. } if expected.contains("confidence"))
+    );
 }
 
 #[test]

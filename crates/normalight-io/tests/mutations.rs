@@ -101,7 +101,7 @@ proptest! {
         }
         let _ = decode_image("a.tga", &noise, ColorMode::Auto);
         for name in ["l.csv", "l.lp", "l.txt"] {
-            let _ = read_lights(name, &noise, 3, &[]);
+            let _ = read_lights(name, &noise, &[]);
         }
     }
 }

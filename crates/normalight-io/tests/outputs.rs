@@ -1,8 +1,8 @@
 //! Maps and the report as files.
 use normalight_core::{CoreError, Mask, NormalMap, Vec3};
 use normalight_io::{
-    ColorMode, IoError, NormalFormat, Report, StageSeconds, WeightHashes, albedo_png, decode_mask,
-    mask_png, normals_npy, normals_png,
+    ColorMode, IoError, NormalFormat, Report, StageSeconds, WeightHashes, albedo_png, albedo_rgba,
+    decode_mask, mask_png, normals_npy, normals_png, normals_rgba, report_json,
 };
 
 fn map() -> NormalMap {
@@ -68,21 +68,35 @@ fn albedo_is_scaled_to_its_99th_percentile() {
 }
 
 #[test]
+fn previews_are_transparent_outside() {
+    let shown = normals_rgba(&map(), NormalFormat::OpenGl);
+    assert_eq!(shown.len(), 4 * 6);
+    assert_eq!(
+        shown[4..16],
+        [128, 255, 128, 255, 128, 128, 255, 255, 0, 0, 0, 0]
+    );
+    assert_eq!(normals_rgba(&map(), NormalFormat::DirectX)[5], 0);
+    let planes = [1.0, 0.0, 0.2155, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let shown = albedo_rgba(&planes, 3, 1).unwrap();
+    assert_eq!(shown, [255, 255, 0, 255, 0, 0, 0, 0, 128, 0, 0, 255]);
+    assert!(albedo_rgba(&planes, 3, 2).is_err());
+}
+
+#[test]
 fn masks_round_trip() {
     let mask = Mask::new(3, 2, vec![true, false, true, false, false, true]);
     assert_eq!(
         decode_mask("mask.png", &mask_png(&mask).unwrap()).unwrap(),
         mask
     );
-    assert_eq!(ColorMode::default(), ColorMode::Auto);
+    assert_eq!(ColorMode::default().to_string(), "auto");
 }
 
 #[test]
 fn reports_are_json() {
     let report = Report {
         version: "0.1.0".into(),
-        inputs: vec!["cat".into()],
-        images: vec!["001.png".into()],
+        inputs: vec!["001.png".into()],
         width: 3,
         height: 2,
         mask: "mask.png".into(),
@@ -101,7 +115,7 @@ fn reports_are_json() {
             })
             .into(),
     };
-    let bytes = report.to_json().unwrap();
+    let bytes = report_json(&report).unwrap();
     assert!(bytes.ends_with(b"}\n"));
     assert_eq!(serde_json::from_slice::<Report>(&bytes).unwrap(), report);
 }

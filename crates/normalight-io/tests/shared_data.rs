@@ -1,6 +1,9 @@
 //! Against published data that lives outside the project; skipped where it is missing.
 use normalight_core::{MaskSource, least_squares_normals, normal_error};
-use normalight_io::{StackInput, StackOptions, diligent, folder};
+use normalight_io::{
+    ReadOptions, StackInput, list_diligent_objects, read_diligent_object, read_lights_path,
+    read_paths,
+};
 use std::path::PathBuf;
 
 /// A folder of the shared data: below `NORMALIGHT_SHARED`, or beside the workspace.
@@ -19,11 +22,11 @@ fn shared(folder: &str) -> Option<PathBuf> {
 
 fn read(folder: &str) -> Option<StackInput> {
     let path = shared(folder)?;
-    Some(folder::read(&[path], StackOptions::default()).unwrap())
+    Some(read_paths(&[path], &ReadOptions::default()).unwrap())
 }
 
 fn woodham_degrees(folder: &str) -> Option<f32> {
-    let object = diligent::read_object(&shared(folder)?, None).unwrap();
+    let object = read_diligent_object(&shared(folder)?, None).unwrap();
     assert!(!object.name.ends_with("PNG"));
     let input = &object.input;
     assert_eq!(input.mask_source, MaskSource::File("mask.png".into()));
@@ -55,14 +58,14 @@ fn benchmark_folders_are_listed() {
     let Some(root) = shared("diligent-crop") else {
         return;
     };
-    let objects = diligent::list_objects(&root).unwrap();
+    let objects = list_diligent_objects(&root).unwrap();
     assert_eq!(objects.len(), 5);
     assert!(objects[0].ends_with("ballPNG"));
     assert_eq!(
-        diligent::list_objects(&objects[1]).unwrap(),
+        list_diligent_objects(&objects[1]).unwrap(),
         [objects[1].clone()]
     );
-    let few = diligent::read_object(&objects[0], Some(8)).unwrap();
+    let few = read_diligent_object(&objects[0], Some(8)).unwrap();
     assert_eq!(few.input.picked, [0, 12, 24, 36, 48, 60, 72, 84]);
     assert_eq!((few.lights.len(), few.input.stack.len()), (8, 8));
 }
@@ -108,6 +111,7 @@ fn folders_of_all_kinds_are_understood() {
 #[test]
 fn counted_light_lists_are_read() {
     let Some(uw) = shared("uw") else { return };
-    let lights = folder::read_lights(&uw.join("lights.txt"), 12, &[]).unwrap();
+    let names: Vec<String> = (0..12).map(|k| format!("{k}.tga")).collect();
+    let lights = read_lights_path(&uw.join("lights.txt"), &names).unwrap();
     assert!((lights[0].direction.x - 0.403_259).abs() < 1e-4);
 }

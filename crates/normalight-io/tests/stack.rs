@@ -1,22 +1,13 @@
 //! Whole stacks: what is found, what is refused.
 mod common;
 
-use common::{encode, file, rgb8, three};
+use common::{encode, file, mask_png, rgb8, three};
 use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
 use normalight_core::{CoreError, MaskSource};
-use normalight_io::{
-    IoError, MaskChoice, NamedBytes, StackInput, StackOptions, folder, read_stack,
-};
+use normalight_io::{IoError, MaskChoice, NamedBytes, ReadOptions, StackInput, read_stack};
 
 fn read(files: Vec<NamedBytes>) -> Result<StackInput, IoError> {
-    read_stack(files, StackOptions::default())
-}
-
-fn mask_png(width: u32, height: u32, inside: impl Fn(u32, u32) -> bool) -> Vec<u8> {
-    let image = RgbImage::from_fn(width, height, |x, y| {
-        image::Rgb([255 * u8::from(inside(x, y)); 3])
-    });
-    encode(&DynamicImage::ImageRgb8(image), ImageFormat::Png)
+    read_stack(files, &ReadOptions::default())
 }
 
 #[test]
@@ -31,7 +22,10 @@ fn order_and_mask_sources() {
         .map(|image| image.name.as_str())
         .collect();
     assert_eq!(names, ["1.png", "2.png", "10.png"]);
-    assert_eq!((input.mask_source, input.found), (MaskSource::Guessed, 3));
+    assert_eq!(
+        (input.mask_source, input.file_names.len()),
+        (MaskSource::Guessed, 3)
+    );
 
     let transparent = {
         let mut image = rgb8(16, 12).into_rgba8();
@@ -47,20 +41,20 @@ fn order_and_mask_sources() {
 
     files.push(file("obj/Mask.png", mask_png(16, 12, |x, _| x > 3)));
     let input = read(files.clone()).unwrap();
-    assert_eq!(input.mask_source, MaskSource::File("obj/Mask.png".into()));
+    assert_eq!(input.mask_source, MaskSource::File("Mask.png".into()));
     assert_eq!(input.mask.count(), 12 * 12);
 
-    let mut options = StackOptions {
+    let mut options = ReadOptions {
         mask: MaskChoice::WholeFrame,
-        ..StackOptions::default()
+        ..ReadOptions::default()
     };
-    let input = read_stack(files.clone(), options.clone()).unwrap();
+    let input = read_stack(files.clone(), &options).unwrap();
     assert_eq!(
         (input.mask_source, input.mask.count()),
         (MaskSource::WholeFrame, 192)
     );
     options.mask = MaskChoice::File(file("mine.png", mask_png(16, 12, |x, y| x + y == 0)));
-    let input = read_stack(files, options).unwrap();
+    let input = read_stack(files, &options).unwrap();
     assert_eq!(
         (input.mask_source, input.mask.count()),
         (MaskSource::File("mine.png".into()), 1)
@@ -72,11 +66,11 @@ fn lists_and_subsets() {
     let mut files = three(16, 12);
     files.push(file("4.png", files[0].bytes.clone()));
     files.push(file("names.txt", b"10.png\n1.png\n4.png\n2.png\n".to_vec()));
-    let options = StackOptions {
+    let options = ReadOptions {
         images: Some(3),
-        ..StackOptions::default()
+        ..ReadOptions::default()
     };
-    let input = read_stack(files.clone(), options).unwrap();
+    let input = read_stack(files.clone(), &options).unwrap();
     let names: Vec<_> = input
         .stack
         .images()
@@ -84,15 +78,17 @@ fn lists_and_subsets() {
         .map(|image| image.name.as_str())
         .collect();
     assert_eq!(
-        (names, input.picked, input.found),
+        (names, input.picked, input.file_names.len()),
         (vec!["10.png", "1.png", "4.png"], vec![0, 1, 2], 4)
     );
-    let options = StackOptions {
+    let options = ReadOptions {
         images: Some(2),
-        ..StackOptions::default()
+        ..ReadOptions::default()
     };
-    let error = read_stack(files.clone(), options).unwrap_err();
-    assert!(matches!(&error, IoError::TooFewImages { name, found: 2, .. } if name == "names.txt"));
+    let error = read_stack(files.clone(), &options).unwrap_err();
+    assert!(
+        matches!(&error, IoError::TooFewRequested { name, found: 2, expected: 3 } if name == "names.txt")
+    );
     files.last_mut().unwrap().bytes = b"10.png\nmissing.png".to_vec();
     let error = read(files).unwrap_err();
     assert!(matches!(&error, IoError::ListedFileMissing { list, entry }
@@ -163,47 +159,30 @@ fn nan_in_exr_is_refused() {
 }
 
 #[test]
-fn folders_and_files() {
-    let place = tempfile::tempdir().unwrap();
-    let object = place.path().join("maskPNG");
+fn foreign_files_are_ignored_or_named() {
     let mut files = three(16, 12);
-    files.push(file("mask.png", mask_png(16, 12, |x, _| x > 3)));
     files.push(file("notes.md", b"not an image".to_vec()));
-    folder::write_files(&object, &files).unwrap();
-    let input = folder::read(std::slice::from_ref(&object), StackOptions::default()).unwrap();
-    assert_eq!((input.found, input.mask.count()), (3, 144));
-
-    let paths = ["10.png", "1.png", "2.png"].map(|name| object.join(name));
-    let input = folder::read(&paths, StackOptions::default()).unwrap();
-    assert_eq!(input.stack.images()[2].name, "10.png");
-    assert_eq!(input.mask_source, MaskSource::Guessed);
-
-    let mut with_notes = paths.to_vec();
-    with_notes.push(object.join("notes.md"));
-    let error = folder::read(&with_notes, StackOptions::default()).unwrap_err();
-    assert!(matches!(&error, IoError::NotAnImage { name, .. } if name.ends_with("notes.md")));
-    let gone = place.path().join("gone");
-    let error = folder::read(&[gone], StackOptions::default()).unwrap_err();
-    assert!(matches!(&error, IoError::Read { name, .. } if name.ends_with("gone")));
+    files.push(file("huge.txt", vec![b'x'; 5 << 20]));
+    files.push(file(".hidden.png", b"not an image".to_vec()));
+    assert_eq!(read(files.clone()).unwrap().file_names.len(), 3);
+    let error = read(files[3..].to_vec()).unwrap_err();
+    assert!(matches!(&error, IoError::NotAnImage { name, .. } if name == "notes.md"));
+    let photographs = ["a.heic", "b.heic", "c.heic"].map(|name| file(name, vec![1; 99]));
+    let error = read(photographs.to_vec()).unwrap_err();
+    assert!(matches!(&error, IoError::NotAnImage { name, .. } if name == "a.heic"));
+    files[1].bytes = b"not an image".to_vec();
+    let error = read(files).unwrap_err();
+    assert!(matches!(&error, IoError::NotAnImage { name, .. } if name == "2.png"));
 }
 
 #[test]
-fn outputs_appear_whole_or_not_at_all() {
-    let place = tempfile::tempdir().unwrap();
-    let target = place.path().join("a/b");
-    folder::write_files(&target, &[file("x.txt", b"one".to_vec())]).unwrap();
-    // The second name is refused: the first file must keep its old content, and nothing stay.
-    let files = [file("x.txt", b"two".to_vec()), file("../y.txt", vec![])];
-    assert!(matches!(
-        folder::write_files(&target, &files),
-        Err(IoError::Write { .. })
-    ));
-    assert_eq!(std::fs::read(target.join("x.txt")).unwrap(), b"one");
-    assert_eq!(std::fs::read_dir(&target).unwrap().count(), 1);
-    folder::write_files(&target, &files[..1]).unwrap();
-    assert_eq!(std::fs::read(target.join("x.txt")).unwrap(), b"two");
-    // A folder below a regular file can be made by nobody.
-    let below = target.join("x.txt/out");
-    let error = folder::write_files(&below, &files[..1]).unwrap_err();
-    assert!(matches!(&error, IoError::Write { name, .. } if name.ends_with("x.txt/out")));
+fn folders_of_a_dropped_tree_do_not_count() {
+    let mut files = three(16, 12);
+    for file in &mut files {
+        file.name = format!("normal_tests/ball/{}", file.name);
+    }
+    assert_eq!(
+        read(files).unwrap().picked_names(),
+        ["1.png", "2.png", "10.png"]
+    );
 }

@@ -50,3 +50,11 @@ pub fn three(width: u32, height: u32) -> Vec<NamedBytes> {
         .map(|name| file(name, bytes.clone()))
         .to_vec()
 }
+
+/// A mask of the given pixels.
+pub fn mask_png(width: u32, height: u32, inside: impl Fn(u32, u32) -> bool) -> Vec<u8> {
+    let image = image::RgbImage::from_fn(width, height, |x, y| {
+        image::Rgb([255 * u8::from(inside(x, y)); 3])
+    });
+    encode(&DynamicImage::ImageRgb8(image), ImageFormat::Png)
+}

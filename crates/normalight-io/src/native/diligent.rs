@@ -1,9 +1,10 @@
 //! DiLiGenT objects with their true lights and normals, for evaluation.
-use crate::folder::{self, display, read_file};
+use super::files::{display, file_name, read_error, read_file};
+use super::matlab::find_array;
+use super::read::read_paths;
 use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
 use crate::stack::read_text;
-use crate::{IoError, StackInput, StackOptions};
-use matfile::{MatFile, NumericData};
+use crate::{IoError, ReadOptions, StackInput};
 use normalight_core::{Light, NormalMap, Vec3};
 use std::path::{Path, PathBuf};
 
@@ -25,7 +26,7 @@ pub struct DiligentObject {
 /// # Errors
 /// [`IoError::Read`]; [`IoError::ListedFileMissing`] for an object without a folder;
 /// [`IoError::TruthFormat`] for a folder that is neither.
-pub fn list_objects(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
+pub fn list_diligent_objects(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
     let list = folder.join("objects.txt");
     if !list.is_file() {
         if folder.join("Normal_gt.mat").is_file() {
@@ -58,28 +59,26 @@ pub fn list_objects(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
 /// that many, evenly spaced, with their lights.
 ///
 /// # Errors
-/// Those of [`folder::read`] and [`folder::read_lights`]; [`IoError::TruthFormat`].
-pub fn read_object(folder: &Path, images: Option<usize>) -> Result<DiligentObject, IoError> {
-    let options = StackOptions {
+/// Those of [`read_paths`] and [`read_lights_path`](super::read_lights_path); [`IoError::Read`]
+/// for a missing truth; [`IoError::TruthFormat`].
+pub fn read_diligent_object(
+    folder: &Path,
+    images: Option<usize>,
+) -> Result<DiligentObject, IoError> {
+    let options = ReadOptions {
         images,
-        ..StackOptions::default()
+        ..ReadOptions::default()
     };
-    let input = folder::read(&[folder.to_owned()], options)?;
-    let all_lights = folder::read_lights(&folder.join("light_directions.txt"), input.found, &[])?;
-    let lights = input
-        .picked
-        .iter()
-        .map(|&index| all_lights[index])
-        .collect();
+    let input = read_paths(&[folder.to_owned()], &options)?;
+    // Without their intensities the lights are no truth.
+    let intensities = folder.join("light_intensities.txt");
+    std::fs::metadata(&intensities).map_err(|reason| read_error(&intensities, reason))?;
+    let lights = input.read_lights_path(&folder.join("light_directions.txt"))?;
     let truth = folder.join("Normal_gt.mat");
     let (width, height) = (input.stack.width(), input.stack.height());
     let bytes = read_file(&truth, MAX_FILE_BYTES)?;
     let normals = parse_normals(&display(&truth), &bytes, width, height)?;
-    let folder_name = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    let folder_name = folder_name
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy();
+    let folder_name = file_name(&folder.canonicalize().unwrap_or_else(|_| folder.to_owned()));
     let name = folder_name.strip_suffix("PNG").unwrap_or(&folder_name);
     Ok(DiligentObject {
         name: name.to_owned(),
@@ -101,28 +100,22 @@ fn parse_normals(
         found,
         expected: format!("a variable Normal_gt of {height} x {width} x 3 real numbers"),
     };
-    let file = MatFile::parse(bytes).map_err(|_| wrong("no MATLAB 5 file".to_owned()))?;
-    let array = file
-        .find_by_name("Normal_gt")
-        .ok_or_else(|| wrong("no variable of that name".to_owned()))?;
-    let values: Vec<f32> = match array.data() {
-        NumericData::Double { real, imag: None } => real.iter().map(|&v| v as f32).collect(),
-        NumericData::Single { real, imag: None } => real.clone(),
-        _ => return Err(wrong("another type of numbers".to_owned())),
-    };
     let area = width * height;
-    if *array.size() != [height, width, 3] || values.len() != 3 * area {
-        return Err(wrong(format!("the size {:?}", array.size())));
+    // Three doubles for each pixel, and the array's head.
+    let limit = 24 * area as u64 + 4096;
+    let array = find_array(bytes, "Normal_gt", limit)
+        .ok_or_else(|| wrong("no such array in MATLAB 5 format, or a damaged one".to_owned()))?;
+    let values = array.values;
+    let size: Vec<usize> = array.size.iter().map(|&side| side as usize).collect();
+    if size != [height, width, 3] || values.len() != 3 * area {
+        return Err(wrong(format!("{} numbers, size {size:?}", values.len())));
     }
     // MATLAB stores columns first.
     let normals = (0..area)
         .map(|pixel| {
             let index = pixel / width + height * (pixel % width);
-            Vec3::new(
-                values[index],
-                values[area + index],
-                values[2 * area + index],
-            )
+            let component = |plane: usize| values[plane * area + index] as f32;
+            Vec3::new(component(0), component(1), component(2))
         })
         .collect();
     Ok(NormalMap::new(width, height, normals))

@@ -1,0 +1,73 @@
+//! What a stack is read from, how, and what comes out.
+use crate::ColorMode;
+use normalight_core::{ImageStack, Mask, MaskSource};
+
+/// A file in memory.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedBytes {
+    /// File name; folders before it only appear in messages.
+    pub name: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+/// Where the mask shall come from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum MaskChoice {
+    /// The mask among the files, else the transparency of the first image, else a guess.
+    #[default]
+    Auto,
+    /// Every pixel belongs to the object.
+    WholeFrame,
+    /// This image: inside is where it is brighter than half.
+    File(NamedBytes),
+}
+
+/// How a stack is read.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ReadOptions {
+    /// How samples relate to light.
+    pub color: ColorMode,
+    /// Where the mask comes from.
+    pub mask: MaskChoice,
+    /// Read only this many images, evenly spaced over the stack; all when `None` or too large.
+    pub images: Option<usize>,
+}
+
+/// A stack as read, ready for the pipeline.
+#[derive(Debug, Clone)]
+pub struct StackInput {
+    /// The images; their names are file names without folders.
+    pub stack: ImageStack,
+    /// The object's pixels; checked to fit the stack and to have some light inside.
+    pub mask: Mask,
+    /// Where the mask came from.
+    pub mask_source: MaskSource,
+    /// File names of all images found, read or not, in the order of the stack.
+    pub file_names: Vec<String>,
+    /// Position in `file_names` of each image of the stack: all of them unless
+    /// [`ReadOptions::images`] chose some.
+    pub picked: Vec<usize>,
+}
+
+impl StackInput {
+    /// File names of the images that were read, in order.
+    pub fn picked_names(&self) -> Vec<String> {
+        let images = self.stack.images().iter();
+        images.map(|image| image.name.clone()).collect()
+    }
+
+    /// Where the mask came from, in words or by its file name: for people and for the report.
+    pub fn mask_words(&self) -> &str {
+        mask_words(&self.mask_source)
+    }
+}
+
+pub(crate) fn mask_words(source: &MaskSource) -> &str {
+    match source {
+        MaskSource::File(name) => name,
+        MaskSource::Alpha => "transparency of the first image",
+        MaskSource::Guessed => "guessed from brightness",
+        MaskSource::WholeFrame => "whole frame",
+    }
+}

@@ -1,0 +1,12 @@
+//! The only part of this crate that touches the file system.
+mod diligent;
+mod files;
+mod intensities;
+mod matlab;
+mod read;
+mod write;
+
+pub use diligent::{DiligentObject, list_diligent_objects, read_diligent_object};
+pub use files::read_named;
+pub use read::{read_lights_path, read_paths};
+pub use write::write_files;

@@ -1,0 +1,100 @@
+use super::files::{display, file_name, read_error, read_file};
+use crate::format::{READ_FORMATS, format_of_extension, not_an_image};
+use crate::light_file::LightFile;
+use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
+use crate::plan::{find_list, plan_stack};
+use crate::stack::{assemble, read_text};
+use crate::{IoError, ReadOptions, StackInput};
+use normalight_core::Light;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Reads a stack: one folder, or several image files. One file is in memory at a time, and only
+/// the picked images are read.
+///
+/// In a folder, files that are no images are ignored and a list or a mask counts, see
+/// [`plan_stack`]. A file that is given must be an image.
+///
+/// # Errors
+/// Those of [`read_stack`](crate::read_stack), [`IoError::Read`], and [`IoError::NotAnImage`] for a
+/// given file that is none.
+pub fn read_paths(paths: &[PathBuf], options: &ReadOptions) -> Result<StackInput, IoError> {
+    if let [folder] = paths
+        && folder.is_dir()
+    {
+        return read_folder(folder, options);
+    }
+    for path in paths {
+        fs::metadata(path).map_err(|reason| read_error(path, reason))?;
+        let name = display(path);
+        if path.is_dir() {
+            return Err(IoError::NotAnImage {
+                name,
+                found: "a folder among several paths".to_owned(),
+                expected: READ_FORMATS,
+            });
+        }
+        if format_of_extension(&name).is_none() {
+            return Err(not_an_image(&name));
+        }
+    }
+    let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
+    let plan = plan_stack(&names, None)?;
+    assemble("the given files", &names, plan, options, |index| {
+        read_file(&paths[index], MAX_FILE_BYTES)
+    })
+}
+
+fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoError> {
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(folder).map_err(|reason| read_error(folder, reason))? {
+        let path = entry.map_err(|reason| read_error(folder, reason))?.path();
+        if path.is_file() {
+            paths.push(path);
+        }
+    }
+    // The system hands names out in any order.
+    paths.sort();
+    let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
+    let list = find_list(&names, |index| {
+        let bytes = read_file(&paths[index], MAX_TEXT_BYTES)?;
+        read_text(&names[index], &bytes)
+    })?;
+    let list = list.map(|(index, text)| (display(&paths[index]), text));
+    let list = list
+        .as_ref()
+        .map(|(path, text)| (path.as_str(), text.as_str()));
+    let plan = plan_stack(&names, list)?;
+    assemble(&display(folder), &names, plan, options, |index| {
+        read_file(&paths[index], MAX_FILE_BYTES)
+    })
+}
+
+/// Reads a light file, see [`read_lights`](crate::read_lights); `light_directions.txt` is completed
+/// by `light_intensities.txt` beside it when there is one.
+///
+/// # Errors
+/// [`IoError::Read`] and those of [`read_lights`](crate::read_lights).
+pub fn read_lights_path(path: &Path, file_names: &[String]) -> Result<Vec<Light>, IoError> {
+    open_lights(path)?.for_images(file_names)
+}
+
+impl StackInput {
+    /// As [`read_lights_path`], for the images of this stack; a file without names may have a line
+    /// for each of them or for each image found.
+    ///
+    /// # Errors
+    /// Those of [`read_lights_path`].
+    pub fn read_lights_path(&self, path: &Path) -> Result<Vec<Light>, IoError> {
+        open_lights(path)?.for_input(self)
+    }
+}
+
+fn open_lights(path: &Path) -> Result<LightFile, IoError> {
+    let lights = LightFile::parse(&display(path), &read_file(path, MAX_TEXT_BYTES)?)?;
+    let sibling = path.with_file_name("light_intensities.txt");
+    if file_name(path) != "light_directions.txt" || !sibling.is_file() {
+        return Ok(lights);
+    }
+    lights.with_intensities(&display(&sibling), &read_file(&sibling, MAX_TEXT_BYTES)?)
+}
