@@ -120,7 +120,13 @@ fn decode_pixels(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Dynami
         format: format_name(format),
         reason,
     };
-    let failed_decoding = |error: ImageError| failed(error.to_string());
+    let failed_decoding = |error: ImageError| match error {
+        // Some decoders look at the memory before anyone can ask for the size.
+        ImageError::Limits(_) => failed(format!(
+            "it needs too much memory; images of at most {MAX_PIXELS} pixels are read"
+        )),
+        error => failed(error.to_string()),
+    };
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_DECODE_BYTES);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);

@@ -16,6 +16,7 @@ mod light_map;
 mod light_text;
 mod limits;
 mod maps;
+mod photographs;
 mod plan;
 mod previews;
 mod report;
@@ -34,9 +35,10 @@ pub use limits::{MAX_FILE_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES};
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{
-    DiligentObject, list_diligent_objects, read_diligent_object, read_lights_path, read_named,
-    read_paths, write_files,
+    DiligentObject, OutputFolder, list_diligent_objects, read_diligent_object, read_lights_path,
+    read_named, read_paths, write_files,
 };
+pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
 pub use report::{Report, StageSeconds, WeightHashes, report_json};

@@ -101,7 +101,7 @@ pub fn mask_png(mask: &Mask) -> Result<Vec<u8>, IoError> {
     png("mask", image.map(DynamicImage::ImageLuma8))
 }
 
-fn png(name: &'static str, image: Option<DynamicImage>) -> Result<Vec<u8>, IoError> {
+pub(crate) fn png(name: &'static str, image: Option<DynamicImage>) -> Result<Vec<u8>, IoError> {
     let failed = |reason: String| IoError::Encode { name, reason };
     let image = image.ok_or_else(|| failed("its size and its samples disagree".to_owned()))?;
     let mut bytes = Cursor::new(Vec::new());

@@ -9,4 +9,4 @@ mod write;
 pub use diligent::{DiligentObject, list_diligent_objects, read_diligent_object};
 pub use files::read_named;
 pub use read::{read_lights_path, read_paths};
-pub use write::write_files;
+pub use write::{OutputFolder, write_files};

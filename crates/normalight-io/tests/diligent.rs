@@ -87,6 +87,8 @@ fn truth_comes_back() {
     write_files(place.path(), &[("objects.txt", "eggPNG\n\n")]).unwrap();
     let listed = list_diligent_objects(place.path()).unwrap();
     assert_eq!(listed, std::slice::from_ref(&folder));
+    std::fs::remove_file(place.path().join("objects.txt")).unwrap();
+    assert_eq!(list_diligent_objects(place.path()).unwrap(), listed);
     assert_eq!(list_diligent_objects(&folder).unwrap(), listed);
 
     let object = read_diligent_object(&folder, None).unwrap();
@@ -125,11 +127,15 @@ fn faults_are_named() {
     assert!(
         matches!(read(), IoError::Read { name, .. } if name.ends_with("light_intensities.txt"))
     );
-    let error = list_diligent_objects(place.path()).unwrap_err();
+    let empty = tempfile::tempdir().unwrap();
+    let error = list_diligent_objects(empty.path()).unwrap_err();
     assert!(matches!(error, IoError::TruthFormat { .. }));
-    write_files(place.path(), &[("objects.txt", "gone\n")]).unwrap();
-    let error = list_diligent_objects(place.path()).unwrap_err();
-    assert!(matches!(error, IoError::ListedFileMissing { entry, .. } if entry == "gone"));
+    // A missing object must not hide the others: only reading it fails.
+    write_files(place.path(), &[("objects.txt", "gone\neggPNG\n")]).unwrap();
+    let listed = list_diligent_objects(place.path()).unwrap();
+    assert_eq!(listed.len(), 2);
+    let error = read_diligent_object(&listed[0], None).unwrap_err();
+    assert!(matches!(error, IoError::Read { name, .. } if name.ends_with("gone")));
 }
 
 /// MATLAB compresses by default.

@@ -4,7 +4,7 @@ mod common;
 use common::{encode, file, mask_png, rgb8, three};
 use image::ImageFormat;
 use normalight_core::MaskSource;
-use normalight_io::{IoError, ReadOptions, read_paths, write_files};
+use normalight_io::{IoError, OutputFolder, ReadOptions, read_paths, write_files};
 
 #[test]
 fn folders_and_files() {
@@ -54,6 +54,24 @@ fn outputs_appear_whole_or_not_at_all() {
     let below = target.join("x.txt/out");
     let error = write_files(&below, &files[..1]).unwrap_err();
     assert!(matches!(&error, IoError::Write { name, .. } if name.ends_with("x.txt/out")));
+}
+
+#[test]
+fn a_prepared_folder_without_results_goes_again() {
+    let place = tempfile::tempdir().unwrap();
+    let target = place.path().join("a/b");
+    drop(OutputFolder::prepare(&target).unwrap());
+    assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 0);
+    let folder = OutputFolder::prepare(&target).unwrap();
+    folder.write(&[("x.txt", "one")]).unwrap();
+    // A folder that was there before stays, as does what lies in it.
+    drop(OutputFolder::prepare(&target).unwrap());
+    assert!(target.join("x.txt").is_file());
+    // A result that cannot take its place must not let the others take theirs.
+    std::fs::create_dir(target.join("y.txt")).unwrap();
+    let error = write_files(&target, &[("x.txt", "two"), ("y.txt", "two")]).unwrap_err();
+    assert!(matches!(&error, IoError::Write { name, .. } if name.ends_with("y.txt")));
+    assert_eq!(std::fs::read(target.join("x.txt")).unwrap(), b"one");
 }
 
 #[test]

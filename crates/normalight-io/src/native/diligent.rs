@@ -21,38 +21,49 @@ pub struct DiligentObject {
     pub normals: NormalMap,
 }
 
-/// The object folders below a folder: those that its `objects.txt` names, or the folder itself.
+/// The object folders of a benchmark folder: those that its `objects.txt` names, whether they exist
+/// or not; without such a list all object folders in it, by name; or the folder itself when it is
+/// one.
 ///
 /// # Errors
-/// [`IoError::Read`]; [`IoError::ListedFileMissing`] for an object without a folder;
-/// [`IoError::TruthFormat`] for a folder that is neither.
+/// [`IoError::Read`]; [`IoError::TruthFormat`] for a folder that is nothing of this.
 pub fn list_diligent_objects(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
     let list = folder.join("objects.txt");
-    if !list.is_file() {
-        if folder.join("Normal_gt.mat").is_file() {
-            return Ok(vec![folder.to_owned()]);
-        }
+    let objects = if list.is_file() {
+        let text = read_text(&display(&list), &read_file(&list, MAX_TEXT_BYTES)?)?;
+        let entries = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        entries.map(|entry| folder.join(entry)).collect()
+    } else if is_object(folder) {
+        vec![folder.to_owned()]
+    } else {
+        objects_in(folder)?
+    };
+    if objects.is_empty() {
         return Err(IoError::TruthFormat {
             name: display(folder),
-            found: "neither".to_owned(),
-            expected: "objects.txt (a benchmark) or Normal_gt.mat (an object)".to_owned(),
+            found: "no object".to_owned(),
+            expected: "objects.txt (a benchmark), folders of objects, or Normal_gt.mat (an object)"
+                .to_owned(),
         });
     }
-    let text = read_text(&display(&list), &read_file(&list, MAX_TEXT_BYTES)?)?;
-    text.lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .map(|entry| {
-            let object = folder.join(entry);
-            if object.is_dir() {
-                return Ok(object);
-            }
-            Err(IoError::ListedFileMissing {
-                list: display(&list),
-                entry: entry.to_owned(),
-            })
-        })
-        .collect()
+    Ok(objects)
+}
+
+fn is_object(folder: &Path) -> bool {
+    folder.join("Normal_gt.mat").is_file()
+}
+
+fn objects_in(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
+    let failed = |reason| read_error(folder, reason);
+    let mut objects = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if is_object(&path) {
+            objects.push(path);
+        }
+    }
+    objects.sort();
+    Ok(objects)
 }
 
 /// Reads an object's folder: images (linear), mask, lights and true normals; `images` keeps only
