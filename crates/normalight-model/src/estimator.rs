@@ -1,7 +1,7 @@
 use crate::observer::{Observer, Progress, Stage};
 use crate::{
     LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Weights,
-    estimate_lights, estimate_normals,
+    estimate_lights, estimate_normals, light_parameters, normal_parameters,
 };
 use burn::tensor::Device;
 use normalight_core::{
@@ -66,6 +66,14 @@ impl Estimator {
             device,
             hashes: [light.hash().to_owned(), normal.hash().to_owned()],
         })
+    }
+
+    /// Number of trainable parameters of the light and of the normal network.
+    pub fn parameters(&self) -> [usize; 2] {
+        [
+            light_parameters(&self.light_architecture),
+            normal_parameters(&self.normal_architecture),
+        ]
     }
 
     /// SHA-256 of the light and the normal weights, in hexadecimal.

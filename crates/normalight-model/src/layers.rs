@@ -6,7 +6,7 @@ use burn::tensor::ops::{InterpolateMode, InterpolateOptions};
 use burn::tensor::{Device, Tensor, activation};
 
 /// Slope of the leaky ReLU of all plain layers.
-const LEAK: f64 = 0.1;
+const LEAK: f32 = 0.1;
 
 /// A convolution with bias, "same" padding and a stride, no activation.
 pub(crate) fn convolution(
@@ -39,7 +39,31 @@ pub(crate) fn depthwise(channels: usize, kernel: usize, stride: usize, device: &
 
 /// Leaky ReLU of slope 0.1.
 pub(crate) fn leaky<const D: usize>(input: Tensor<D>) -> Tensor<D> {
-    activation::leaky_relu(input, LEAK)
+    activation::leaky_relu(input, f64::from(LEAK))
+}
+
+/// A layer of [`convolution`] and leaky ReLU.
+pub(crate) fn convolve_leaky(conv: &Conv2d, input: Tensor<4>) -> Tensor<4> {
+    convolve_slope(conv, input, LEAK)
+}
+
+/// A layer of [`convolution`] alone.
+pub(crate) fn convolve(conv: &Conv2d, input: Tensor<4>) -> Tensor<4> {
+    convolve_slope(conv, input, 1.0)
+}
+
+/// A row of layers of [`convolution`] and leaky ReLU.
+pub(crate) fn convolve_row(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<4> {
+    convolutions
+        .iter()
+        .fold(input, |input, conv| convolve_leaky(conv, input))
+}
+
+fn convolve_slope(conv: &Conv2d, input: Tensor<4>, slope: f32) -> Tensor<4> {
+    let Some(bias) = &conv.bias else {
+        unreachable!("`convolution` gives every layer a bias");
+    };
+    normalight_kernels::convolution(input, conv.weight.val(), bias.val(), conv.stride[0], slope)
 }
 
 /// Nearest-neighbour upsampling by two.

@@ -28,7 +28,7 @@ pub use architecture::{
     Architecture, CellLight, CellNormal, LightArchitecture, LightBody, NormalArchitecture,
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
-pub use defaults::paper_genotypes;
+pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;
 pub use estimator::{Estimate, EstimateSettings, Estimator};
 pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};

@@ -1,5 +1,5 @@
 use crate::cell::{CellLayer, CellRow, forward_row};
-use crate::layers::{convolution, leaky};
+use crate::layers::{convolution, convolve_row, leaky};
 use crate::{CellLight, LightArchitecture, LightBody, ModelError, PlainLight};
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
@@ -51,14 +51,8 @@ struct CellClassifier {
 
 impl PlainFeatures {
     fn forward(&self, input: Tensor<4>) -> Tensor<4> {
-        forward_leaky(&self.convolutions, input)
+        convolve_row(&self.convolutions, input)
     }
-}
-
-fn forward_leaky(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<4> {
-    convolutions
-        .iter()
-        .fold(input, |input, conv| leaky(conv.forward(input)))
 }
 
 impl LightNetwork {
@@ -95,7 +89,7 @@ impl LightNetwork {
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
             Features::Plain(plain) => plain.forward(input),
-            Features::Cells(cells) => forward_row(&cells.cells, forward_leaky(&cells.stem, input)),
+            Features::Cells(cells) => forward_row(&cells.cells, convolve_row(&cells.stem, input)),
         }
     }
 
@@ -110,8 +104,8 @@ impl LightNetwork {
         let last = match &self.classifier {
             Classifier::Plain(plain) => plain.forward(both),
             Classifier::Cells(cells) => {
-                let row = forward_row(&cells.cells, forward_leaky(&cells.before, both));
-                forward_leaky(&cells.after, row)
+                let row = forward_row(&cells.cells, convolve_row(&cells.before, both));
+                convolve_row(&cells.after, row)
             }
         };
         let hidden = leaky(self.hidden.forward(last.flatten::<2>(1, 3)));

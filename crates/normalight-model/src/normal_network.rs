@@ -1,5 +1,5 @@
 use crate::cell::{CellLayer, CellRow, forward_row};
-use crate::layers::{convolution, doubled, leaky};
+use crate::layers::{convolution, convolve, convolve_leaky, convolve_row, doubled, leaky};
 use crate::{CellNormal, ModelError, NormalArchitecture, NormalBody, PlainNormal, Upsampling};
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
@@ -63,10 +63,10 @@ impl UpLayer {
     }
 
     fn forward(&self, input: Tensor<4>) -> Tensor<4> {
-        leaky(match self {
-            Self::Transposed(conv) => conv.forward(input),
-            Self::Nearest(conv) => conv.forward(doubled(input)),
-        })
+        match self {
+            Self::Transposed(conv) => leaky(conv.forward(input)),
+            Self::Nearest(conv) => convolve_leaky(conv, doubled(input)),
+        }
     }
 }
 
@@ -102,16 +102,16 @@ impl NormalNetwork {
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.body {
             Body::Plain(plain) => {
-                let small = all_leaky(&plain.down, input);
-                all_leaky(&plain.up, doubled(small))
+                let small = convolve_row(&plain.down, input);
+                convolve_row(&plain.up, doubled(small))
             }
             Body::Cells(cells) => {
-                let row = forward_row(&cells.features, all_leaky(&cells.stem, input));
+                let row = forward_row(&cells.features, convolve_row(&cells.stem, input));
                 let mut features = cells.feature_up.forward(row);
                 if cells.second_up {
                     features = doubled(features);
                 }
-                leaky(cells.feature_conv.forward(features))
+                convolve_leaky(&cells.feature_conv, features)
             }
         }
     }
@@ -124,12 +124,12 @@ impl NormalNetwork {
     pub fn regress(&self, fused: Tensor<4>) -> Tensor<4> {
         let raw = match &self.body {
             Body::Plain(plain) => {
-                let fused = doubled(all_leaky(&plain.fused, fused));
-                plain.output.forward(leaky(plain.head.forward(fused)))
+                let fused = doubled(convolve_row(&plain.fused, fused));
+                convolve(&plain.output, convolve_leaky(&plain.head, fused))
             }
             Body::Cells(cells) => {
-                let row = forward_row(&cells.regressor, all_leaky(&cells.fused, fused));
-                cells.output.forward(cells.regressor_up.forward(row))
+                let row = forward_row(&cells.regressor, convolve_row(&cells.fused, fused));
+                convolve(&cells.output, cells.regressor_up.forward(row))
             }
         };
         // The small term keeps the gradient finite where the network says nothing.
@@ -147,12 +147,6 @@ impl NormalNetwork {
         }
         network
     }
-}
-
-fn all_leaky(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<4> {
-    convolutions
-        .iter()
-        .fold(input, |input, conv| leaky(conv.forward(input)))
 }
 
 impl PlainBody {

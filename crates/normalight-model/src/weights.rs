@@ -31,7 +31,7 @@ impl Weights {
     /// Reads a weights file.
     ///
     /// # Errors
-    /// [`ModelError::CorruptWeights`], [`ModelError::Architecture`].
+    /// [`ModelError::CorruptWeights`], which names the file.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, ModelError> {
         let corrupt = |reason: String| ModelError::CorruptWeights {
             name: name.to_owned(),
@@ -62,9 +62,10 @@ impl Weights {
         let architecture: Architecture = serde_json::from_str(entry("architecture")?)
             .map_err(|error| corrupt(format!("architecture: {error}")))?;
         match &architecture {
-            Architecture::Light(light) => light.validate()?,
-            Architecture::Normal(normal) => normal.validate()?,
+            Architecture::Light(light) => light.validate(),
+            Architecture::Normal(normal) => normal.validate(),
         }
+        .map_err(|error| corrupt(error.to_string()))?;
         let mut tensors = BTreeMap::new();
         for (path, view) in file.iter() {
             let values = decode(&view)
