@@ -1,4 +1,4 @@
-//! Training of both networks on rendered samples.
+//! Training of both networks on rendered samples, and their evaluation on benchmarks.
 #![deny(missing_docs)]
 
 mod adam;
@@ -6,6 +6,7 @@ mod batch;
 mod checkpoint;
 mod curves;
 mod error;
+mod evaluate;
 mod light_task;
 mod loader;
 mod normal_task;
@@ -14,5 +15,6 @@ mod run;
 mod task;
 
 pub use error::TrainError;
+pub use evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
 pub use recipe::{LightSettings, Network, NormalSettings, TrainRecipe};
 pub use run::{StepReport, TrainRun, train};

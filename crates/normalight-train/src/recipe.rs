@@ -1,5 +1,7 @@
 use crate::TrainError;
-use normalight_model::{LightArchitecture, NormalArchitecture};
+use normalight_model::{
+    LightArchitecture, NormalArchitecture, light_parameters, normal_parameters,
+};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -260,6 +262,14 @@ impl TrainRecipe {
             });
         }
         Ok(())
+    }
+
+    /// Number of trainable parameters of the network that is trained.
+    pub fn parameters(&self) -> usize {
+        match self.network {
+            Network::Light => light_parameters(&self.light.architecture),
+            Network::Normal => normal_parameters(&self.normal.architecture),
+        }
     }
 
     /// Learning rate of a step: linear warm-up, then half a cosine.

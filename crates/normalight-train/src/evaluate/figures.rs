@@ -1,0 +1,104 @@
+use serde::{Deserialize, Serialize};
+
+/// Errors and time of one object, or their means over several.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Figures {
+    /// Mean angle between estimated and true normals, in degrees.
+    pub normal_degrees: f64,
+    /// Share of pixels, 0..1, whose normal is less than 11.25 degrees off.
+    pub under_11_25: f64,
+    /// Share of pixels under 22.5 degrees.
+    pub under_22_5: f64,
+    /// Share of pixels under 30 degrees.
+    pub under_30: f64,
+    /// Mean angle between estimated and true light directions, in degrees; `None` when the true
+    /// lights were given.
+    pub light_degrees: Option<f64>,
+    /// Scale-invariant relative error of the intensities; `None` when the true lights were given.
+    pub intensity_error: Option<f64>,
+    /// Seconds of estimating, reading left out.
+    pub seconds: f64,
+}
+
+/// The figures of one object.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ObjectFigures {
+    /// The object.
+    pub name: String,
+    /// Number of images used.
+    pub images: usize,
+    /// Number of pixels compared.
+    pub pixels: usize,
+    /// Its errors and time.
+    #[serde(flatten)]
+    pub figures: Figures,
+}
+
+impl Figures {
+    /// The mean over objects, each counting the same; `None` without any.
+    pub fn mean(objects: &[ObjectFigures]) -> Option<Self> {
+        if objects.is_empty() {
+            return None;
+        }
+        let mean = |value: fn(&Self) -> f64| {
+            let values = objects.iter().map(|object| value(&object.figures));
+            values.sum::<f64>() / objects.len() as f64
+        };
+        let known = |value: fn(&Self) -> Option<f64>| {
+            let values: Option<Vec<f64>> = objects
+                .iter()
+                .map(|object| value(&object.figures))
+                .collect();
+            values.map(|values| values.iter().sum::<f64>() / values.len() as f64)
+        };
+        Some(Self {
+            normal_degrees: mean(|figures| figures.normal_degrees),
+            under_11_25: mean(|figures| figures.under_11_25),
+            under_22_5: mean(|figures| figures.under_22_5),
+            under_30: mean(|figures| figures.under_30),
+            light_degrees: known(|figures| figures.light_degrees),
+            intensity_error: known(|figures| figures.intensity_error),
+            seconds: mean(|figures| figures.seconds),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn object(normal_degrees: f64, light_degrees: Option<f64>) -> ObjectFigures {
+        ObjectFigures {
+            name: "egg".to_owned(),
+            images: 8,
+            pixels: 100,
+            figures: Figures {
+                normal_degrees,
+                under_11_25: 0.5,
+                under_22_5: 0.75,
+                under_30: 1.0,
+                light_degrees,
+                intensity_error: light_degrees.map(|_| 0.1),
+                seconds: 2.0,
+            },
+        }
+    }
+
+    #[test]
+    fn every_object_counts_the_same() {
+        let mean = Figures::mean(&[object(4.0, Some(1.0)), object(8.0, Some(4.0))]).unwrap();
+        assert_eq!((mean.normal_degrees, mean.light_degrees), (6.0, Some(2.5)));
+        assert_eq!((mean.under_22_5, mean.seconds), (0.75, 2.0));
+        let given = Figures::mean(&[object(4.0, None)]).unwrap();
+        assert_eq!((given.light_degrees, given.intensity_error), (None, None));
+        assert_eq!(Figures::mean(&[]), None);
+    }
+
+    #[test]
+    fn figures_stand_beside_the_name() {
+        let json = serde_json::to_value(object(4.0, None)).unwrap();
+        assert_eq!(json["name"], "egg");
+        assert_eq!(json["normal_degrees"], 4.0);
+        assert!(json["light_degrees"].is_null());
+    }
+}
