@@ -1,0 +1,162 @@
+//! What the commands take; these comments are their help.
+use crate::choices::{ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, NetworkChoice};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Finds the lights and the surface normals of an object from photographs.
+///
+/// Take at least three photographs (better ten or more) of one object with a fixed camera, each with
+/// the lamp somewhere else, and put them into a folder. Nobody needs to know where the lamp was.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Example: photographs in the folder `vase`, results into the folder `vase-normals`
+  normalight estimate vase --out vase-normals
+
+`normalight help estimate` explains all settings. Everything stays on this computer.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Photographs in, lights and normals out.
+    Estimate(EstimateArgs),
+    /// Train one of the two networks on rendered samples.
+    Train(TrainArgs),
+    /// Measure the errors on objects whose lights and normals are known.
+    Evaluate(EvaluateArgs),
+}
+
+/// Estimates lights and normals of one object.
+#[derive(Debug, Args)]
+#[command(after_help = ESTIMATE_EXAMPLES)]
+pub(crate) struct EstimateArgs {
+    /// A folder of photographs, or the photographs themselves.
+    ///
+    /// PNG, JPEG, TIFF, TGA, BMP, WebP or EXR, all of one size. In a folder, a list file
+    /// (filenames.txt or names.txt) decides which files are the photographs and in which order;
+    /// without one it is all images but those named mask, normal, albedo, depth or ambient.
+    #[arg(required = true, value_name = "INPUT")]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Folder for the results; made when missing.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Image of the object's pixels (bright inside, dark outside), or `none` for the whole frame.
+    ///
+    /// Default: the image named mask beside the photographs, else the transparency of the first
+    /// one, else a guess from their brightness.
+    #[arg(long, value_name = "FILE|none")]
+    pub(crate) mask: Option<PathBuf>,
+    /// Known lights: lines of `x y z` as in DiLiGenT's light_directions.txt, an .lp file, or our
+    /// lights.csv.
+    ///
+    /// Without it the lights are estimated; light files lying beside the photographs are not used.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) lights: Option<PathBuf>,
+    /// Use only this many photographs, evenly spaced.
+    #[arg(long, value_name = "N")]
+    pub(crate) images: Option<usize>,
+    /// Which way green points in normals.png; normals.npy always has y up.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "opengl")]
+    pub(crate) normal_format: FormatChoice,
+    /// How the numbers in the photographs relate to light.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) color: ColorChoice,
+    #[command(flatten)]
+    pub(crate) estimation: EstimationArgs,
+    /// Show no progress and no summary.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+const ESTIMATE_EXAMPLES: &str = "\
+Results: normals.png (16 bit), normals.npy, lights.csv, lights.lp, lights.svg, albedo.png, mask.png, report.json.
+
+Examples:
+  normalight estimate vase --out vase-normals
+  normalight estimate vase/*.jpg --mask vase-mask.png --out vase-normals --normal-format directx";
+
+/// How to get from photographs to normals; the same for `estimate` and `evaluate`.
+#[derive(Debug, Args)]
+pub(crate) struct EstimationArgs {
+    /// Where to compute.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) device: DeviceChoice,
+    /// How the light network's classes become numbers.
+    #[arg(long, value_enum, default_value = "soft-argmax")]
+    pub(crate) decoding: DecodingChoice,
+    /// Keep the light network's answer as it is instead of refitting the lights to the normals.
+    #[arg(long)]
+    pub(crate) no_refit: bool,
+    /// Another light network than the one inside this program.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) light_weights: Option<PathBuf>,
+    /// Another normal network than the one inside this program.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) normal_weights: Option<PathBuf>,
+}
+
+/// Trains a network.
+///
+/// The folder then holds weights.safetensors (the best so far), checkpoint.safetensors, curves.csv,
+/// curves.png and the recipe. Ctrl-C writes a checkpoint and stops.
+#[derive(Debug, Args)]
+#[command(after_help = TRAIN_EXAMPLES)]
+pub(crate) struct TrainArgs {
+    /// Which network.
+    #[arg(value_enum)]
+    pub(crate) network: NetworkChoice,
+    /// The recipe: every number of the run, as TOML.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) recipe: PathBuf,
+    /// Folder of the run; made when missing.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Continue from the folder's checkpoint; without one a fresh start.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Where to compute.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) device: DeviceChoice,
+    /// Show no progress and no summary.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+const TRAIN_EXAMPLES: &str = "\
+Example: train the light network, and continue after a break
+  normalight train light --recipe models/recipes/light.toml --out runs/light
+  normalight train light --recipe models/recipes/light.toml --out runs/light --resume";
+
+/// Measures the errors of the estimates on a benchmark in DiLiGenT's layout.
+#[derive(Debug, Args)]
+#[command(after_help = EVALUATE_EXAMPLES)]
+pub(crate) struct EvaluateArgs {
+    /// A folder of objects, or one object's folder.
+    ///
+    /// An object's folder holds photographs, mask.png, Normal_gt.mat, light_directions.txt and
+    /// light_intensities.txt. A folder of objects may have a list of them, objects.txt.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Use only this many photographs, evenly spaced; several numbers give a table each.
+    #[arg(long, value_name = "N", value_delimiter = ',')]
+    pub(crate) images: Vec<usize>,
+    /// Write the figures as JSON, too.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Estimate the normals with the true lights: what is left is the normal network's error.
+    #[arg(long)]
+    pub(crate) calibrated: bool,
+    #[command(flatten)]
+    pub(crate) estimation: EstimationArgs,
+    /// Show no progress.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+const EVALUATE_EXAMPLES: &str = "\
+Example: tables for 96, 16 and 8 photographs of each object
+  normalight evaluate DiLiGenT/pmsData --images 96,16,8 --json figures.json";

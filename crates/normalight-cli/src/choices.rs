@@ -1,0 +1,105 @@
+//! Words of the command line and what they stand for.
+use clap::ValueEnum;
+use normalight_core::Decoding;
+use normalight_io::{ColorMode, NormalFormat};
+use normalight_train::Network;
+
+/// Where to compute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DeviceChoice {
+    /// The GPU if there is a real one, else the CPU.
+    Auto,
+    /// The processor.
+    Cpu,
+    /// A real GPU, or an error.
+    Gpu,
+    /// A GPU that the processor imitates: slow, for tests of the GPU's code.
+    #[value(hide = true)]
+    SoftwareGpu,
+    /// An independent implementation on the processor: slow, for comparisons.
+    #[value(hide = true)]
+    Reference,
+}
+
+/// How the numbers in the photographs relate to light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ColorChoice {
+    /// 8-bit JPEG and WebP are sRGB, everything else is linear.
+    Auto,
+    /// Twice the number is twice the light.
+    Linear,
+    /// As most cameras store pictures for viewing.
+    Srgb,
+}
+
+/// Which way green points in normals.png.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FormatChoice {
+    /// Green is up.
+    Opengl,
+    /// Green is down.
+    Directx,
+}
+
+/// How the light network's classes become numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DecodingChoice {
+    /// The mean over all classes, weighted by their probability.
+    SoftArgmax,
+    /// The centre of the most probable class, as in the paper.
+    Argmax,
+}
+
+/// One of the two networks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NetworkChoice {
+    /// Photographs to lights.
+    Light,
+    /// Photographs and lights to normals.
+    Normal,
+}
+
+impl From<ColorChoice> for ColorMode {
+    fn from(choice: ColorChoice) -> Self {
+        match choice {
+            ColorChoice::Auto => ColorMode::Auto,
+            ColorChoice::Linear => ColorMode::Linear,
+            ColorChoice::Srgb => ColorMode::Srgb,
+        }
+    }
+}
+
+impl From<FormatChoice> for NormalFormat {
+    fn from(choice: FormatChoice) -> Self {
+        match choice {
+            FormatChoice::Opengl => NormalFormat::OpenGl,
+            FormatChoice::Directx => NormalFormat::DirectX,
+        }
+    }
+}
+
+impl From<DecodingChoice> for Decoding {
+    fn from(choice: DecodingChoice) -> Self {
+        match choice {
+            DecodingChoice::SoftArgmax => Decoding::SoftArgmax,
+            DecodingChoice::Argmax => Decoding::Argmax,
+        }
+    }
+}
+
+impl From<NetworkChoice> for Network {
+    fn from(choice: NetworkChoice) -> Self {
+        match choice {
+            NetworkChoice::Light => Network::Light,
+            NetworkChoice::Normal => Network::Normal,
+        }
+    }
+}
+
+/// The word that stands for a choice.
+pub(crate) fn word(choice: impl ValueEnum) -> String {
+    choice
+        .to_possible_value()
+        .map(|value| value.get_name().to_owned())
+        .unwrap_or_default()
+}

@@ -1,0 +1,54 @@
+//! The command `normalight`: photographs in, lights and normals out; training and evaluation.
+
+mod args;
+mod choices;
+mod device;
+mod estimate;
+mod evaluate;
+mod interrupt;
+mod outputs;
+mod progress;
+mod settings;
+mod table;
+mod terminal;
+mod train;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+use terminal::note;
+
+/// How a command ended, errors aside.
+enum Outcome {
+    /// Everything that was asked for is there.
+    Done,
+    /// Some of it failed, as was said on the way.
+    PartlyFailed,
+    /// The user stopped it.
+    Interrupted,
+}
+
+/// What shells expect of a program that Ctrl-C ended.
+const INTERRUPTED: u8 = 130;
+
+fn main() -> ExitCode {
+    // Wrong usage ends here, with code 2.
+    let arguments = Arguments::parse();
+    let outcome = interrupt::listen().and_then(|()| match &arguments.command {
+        Command::Estimate(args) => estimate::run(args),
+        Command::Train(args) => train::run(args),
+        Command::Evaluate(args) => evaluate::run(args),
+    });
+    match outcome {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::PartlyFailed) => ExitCode::FAILURE,
+        Ok(Outcome::Interrupted) => {
+            note("interrupted");
+            ExitCode::from(INTERRUPTED)
+        }
+        Err(error) => {
+            note(&format!("error: {error:#}"));
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! From arguments to an estimator and its settings.
+use crate::args::EstimationArgs;
+use crate::choices::word;
+use crate::device::{self, OpenDevice};
+use anyhow::Result;
+use normalight_core::RefitSettings;
+use normalight_io::WeightHashes;
+use normalight_io::read_named;
+use normalight_model::{EstimateSettings, Estimator, Weights, default_weights};
+use std::path::Path;
+
+/// Both networks on a device, and how to use them.
+pub(crate) struct Estimation {
+    pub(crate) estimator: Estimator,
+    pub(crate) settings: EstimateSettings,
+    pub(crate) device: String,
+}
+
+impl Estimation {
+    /// Loads the weights and opens the device.
+    pub(crate) fn open(args: &EstimationArgs) -> Result<Self> {
+        let [light, normal] = default_weights()?;
+        let light = other_weights(args.light_weights.as_deref())?.unwrap_or(light);
+        let normal = other_weights(args.normal_weights.as_deref())?.unwrap_or(normal);
+        let OpenDevice { device, name } = device::open(args.device)?;
+        Ok(Self {
+            estimator: Estimator::new(&light, &normal, device)?,
+            settings: EstimateSettings {
+                decoding: args.decoding.into(),
+                refit: (!args.no_refit).then(RefitSettings::default),
+            },
+            device: name,
+        })
+    }
+
+    /// Hashes of the weights that are used.
+    pub(crate) fn hashes(&self, lights_given: bool) -> WeightHashes {
+        let [light, normal] = self.estimator.weight_hashes();
+        WeightHashes {
+            light: (!lights_given).then(|| light.to_owned()),
+            normal: Some(normal.to_owned()),
+        }
+    }
+}
+
+/// The settings as the command line names them, for reports. Lights that were given are never
+/// refitted.
+pub(crate) fn in_words(
+    args: &EstimationArgs,
+    lights_given: bool,
+) -> serde_json::Map<String, serde_json::Value> {
+    let refit = !args.no_refit && !lights_given;
+    [
+        ("device".to_owned(), word(args.device).into()),
+        ("decoding".to_owned(), word(args.decoding).into()),
+        ("refit".to_owned(), refit.into()),
+    ]
+    .into_iter()
+    .collect()
+}
+
+fn other_weights(path: Option<&Path>) -> Result<Option<Weights>> {
+    let Some(path) = path else { return Ok(None) };
+    let file = read_named(path)?;
+    let name = path.display().to_string();
+    Ok(Some(Weights::from_bytes(&name, &file.bytes)?))
+}

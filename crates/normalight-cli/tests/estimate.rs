@@ -1,0 +1,308 @@
+//! `estimate` on a small rendered stack: what it leaves, and what its settings do.
+mod common;
+
+use common::*;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// A folder with the stack, and where results go.
+fn prepared() -> (TempDir, PathBuf, PathBuf) {
+    let place = tempfile::tempdir().unwrap();
+    let (photographs, out) = (place.path().join("vase"), place.path().join("out/deep"));
+    write_stack(&photographs, &sample());
+    (place, photographs, out)
+}
+
+#[test]
+fn all_results_are_there() {
+    let (_place, photographs, out) = prepared();
+    let said = said(estimate(&photographs, &out, &[]));
+    for part in [
+        "8 of 48x48 pixels",
+        "mask.png",
+        "CPU",
+        "normals",
+        path(&out),
+    ] {
+        assert!(said.contains(part), "{part:?} is missing in {said}");
+    }
+    let mut expected = OUTPUTS.map(str::to_owned);
+    expected.sort();
+    assert_eq!(files(&out), expected);
+
+    let picture = image::open(out.join("normals.png")).unwrap();
+    assert_eq!((picture.width(), picture.height()), (48, 48));
+    assert_eq!(picture.color(), image::ColorType::Rgb16);
+    let inside = sample().mask;
+    for (normal, inside) in read_npy(&out.join("normals.npy")).iter().zip(inside) {
+        let length = normal.iter().map(|v| v * v).sum::<f32>().sqrt();
+        let expected = if inside { 1.0 } else { 0.0 };
+        assert!((length - expected).abs() < 1e-5, "{normal:?}");
+    }
+    let lights = read_csv(&out.join("lights.csv"));
+    assert_eq!(lights.len(), IMAGES);
+    assert_eq!(lights[7].file, "008.png");
+    for light in &lights {
+        assert!((0.0..=1.0).contains(&light.confidence));
+        assert!(light.intensity > 0.0);
+        let length: f32 = light.direction.iter().map(|v| v * v).sum();
+        assert!((length - 1.0).abs() < 1e-4);
+    }
+    let lp = std::fs::read_to_string(out.join("lights.lp")).unwrap();
+    assert!(lp.starts_with("8\n001.png ") && lp.lines().count() == 9);
+    let map = std::fs::read_to_string(out.join("lights.svg")).unwrap();
+    assert!(map.contains("<svg") && map.contains("image 8"));
+    assert_eq!(image::open(out.join("albedo.png")).unwrap().width(), 48);
+}
+
+#[test]
+fn the_report_tells_how_it_came_to_be() {
+    let (_place, photographs, out) = prepared();
+    let said = said(estimate(&photographs, &out, &["--quiet", "--images", "4"]));
+    assert_eq!(said, "");
+    let report = read_json(&out.join("report.json"));
+    assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(report["inputs"][1], "003.png");
+    assert_eq!(
+        (&report["width"], &report["height"]),
+        (&48.into(), &48.into())
+    );
+    assert_eq!(report["mask"], "mask.png");
+    assert_eq!(report["device"], "CPU (flex)");
+    for network in ["light", "normal"] {
+        assert_eq!(report["weights"][network].as_str().unwrap().len(), 64);
+    }
+    let settings = &report["settings"];
+    assert_eq!(settings["images"], 4);
+    assert_eq!(settings["refit"], true);
+    assert_eq!(settings["decoding"], "soft-argmax");
+    assert_eq!(settings["normal_format"], "opengl");
+    let stages = report["seconds"].as_array().unwrap();
+    let names: Vec<&str> = stages
+        .iter()
+        .map(|s| s["stage"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "start",
+            "reading",
+            "lights",
+            "normals",
+            "refit",
+            "final normals",
+            "albedo"
+        ]
+    );
+    assert!(stages.iter().all(|s| s["seconds"].as_f64().unwrap() >= 0.0));
+}
+
+#[test]
+fn the_same_photographs_give_the_same_files() {
+    let (place, photographs, out) = prepared();
+    let again = place.path().join("again");
+    said(estimate(&photographs, &out, &[]));
+    // Once as a folder, once as files in any order.
+    let images: Vec<PathBuf> = (1..=IMAGES)
+        .rev()
+        .map(|k| photographs.join(format!("{k:03}.png")))
+        .collect();
+    let mask = photographs.join("mask.png");
+    let mut arguments = vec!["estimate", "--out", path(&again), "--mask", path(&mask)];
+    arguments.extend(images.iter().map(|image| path(image)));
+    said(normalight(&arguments));
+    for name in OUTPUTS.iter().filter(|&&name| name != "report.json") {
+        let [one, two] = [&out, &again].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(one == two, "{name} differs");
+    }
+}
+
+#[test]
+fn some_images_are_evenly_spaced() {
+    let (_place, photographs, out) = prepared();
+    said(estimate(&photographs, &out, &["--images", "4"]));
+    let lights = read_csv(&out.join("lights.csv"));
+    let names: Vec<&str> = lights.iter().map(|light| light.file.as_str()).collect();
+    assert_eq!(names, ["001.png", "003.png", "005.png", "007.png"]);
+}
+
+#[test]
+fn given_lights_are_used_as_they_are() {
+    let (place, photographs, out) = prepared();
+    let rows: Vec<String> = sample()
+        .lights
+        .iter()
+        .map(|light| light.direction.to_array().map(|v| v.to_string()).join(" "))
+        .collect();
+    let file = place.path().join("light_directions.txt");
+    std::fs::write(&file, rows.join("\n")).unwrap();
+    said(estimate(&photographs, &out, &["--lights", path(&file)]));
+    for (light, truth) in read_csv(&out.join("lights.csv"))
+        .iter()
+        .zip(sample().lights)
+    {
+        let dot: f32 = (0..3)
+            .map(|k| light.direction[k] * truth.direction[k])
+            .sum();
+        assert!(dot > 0.9999 && light.confidence == 1.0);
+    }
+    let report = read_json(&out.join("report.json"));
+    assert_eq!(report["lights_from"], path(&file));
+    assert!(report["weights"]["light"].is_null());
+    // What came out can be put in again.
+    let again = place.path().join("again");
+    let csv = out.join("lights.csv");
+    said(estimate(&photographs, &again, &["--lights", path(&csv)]));
+    let [one, two] = [&out, &again].map(|folder| read_npy(&folder.join("normals.npy")));
+    assert_eq!(one, two);
+}
+
+#[test]
+fn truth_beside_the_photographs_is_not_used() {
+    let (place, photographs, out) = prepared();
+    said(estimate(&photographs, &out, &[]));
+    for name in ["light_directions.txt", "lights.lp", "lights.csv"] {
+        std::fs::write(photographs.join(name), "0 0 1\n".repeat(IMAGES)).unwrap();
+    }
+    let again = place.path().join("again");
+    said(estimate(&photographs, &again, &[]));
+    let [one, two] = [&out, &again].map(|folder| read_npy(&folder.join("normals.npy")));
+    assert_eq!(one, two);
+}
+
+#[test]
+fn directx_turns_green_around() {
+    let (place, photographs, out) = prepared();
+    let other = place.path().join("directx");
+    said(estimate(&photographs, &out, &[]));
+    said(estimate(
+        &photographs,
+        &other,
+        &["--normal-format", "directx"],
+    ));
+    let [one, two] = [&out, &other].map(|folder| {
+        image::open(folder.join("normals.png"))
+            .unwrap()
+            .into_rgb16()
+    });
+    for (one, two) in one.pixels().zip(two.pixels()) {
+        assert_eq!((one[0], one[2]), (two[0], two[2]));
+        let sum = u32::from(one[1]) + u32::from(two[1]);
+        assert!(
+            one.0 == [0; 3] || sum.abs_diff(65_535) <= 1,
+            "{one:?} {two:?}"
+        );
+    }
+    let [one, two] = [&out, &other].map(|folder| read_npy(&folder.join("normals.npy")));
+    assert_eq!(one, two);
+}
+
+#[test]
+fn masks_are_named_by_their_source() {
+    let (_place, photographs, out) = prepared();
+    let mask_of = |more: &[&str]| {
+        said(estimate(&photographs, &out, more));
+        read_json(&out.join("report.json"))["mask"].clone()
+    };
+    assert_eq!(mask_of(&["--mask", "none"]), "whole frame");
+    assert!(
+        image::open(out.join("mask.png"))
+            .unwrap()
+            .into_luma8()
+            .iter()
+            .all(|&v| v == 255)
+    );
+    std::fs::rename(photographs.join("mask.png"), photographs.join("../m.png")).unwrap();
+    assert_eq!(mask_of(&[]), "guessed from brightness");
+    let file = photographs.join("../m.png");
+    assert_eq!(mask_of(&["--mask", path(&file)]), "m.png");
+}
+
+#[test]
+fn settings_change_the_lights() {
+    let (_place, photographs, out) = prepared();
+    let lights = |more: &[&str]| {
+        said(estimate(&photographs, &out, more));
+        std::fs::read(out.join("lights.csv")).unwrap()
+    };
+    let refitted = lights(&[]);
+    let plain = lights(&["--no-refit"]);
+    let argmax = lights(&["--no-refit", "--decoding", "argmax"]);
+    let srgb = lights(&["--no-refit", "--color", "srgb"]);
+    assert!(refitted != plain && plain != argmax && plain != srgb);
+}
+
+#[test]
+fn both_implementations_agree() {
+    let (place, photographs, out) = prepared();
+    let reference = place.path().join("reference");
+    said(estimate(
+        &photographs,
+        &out,
+        &["--images", "3", "--no-refit"],
+    ));
+    said(on_device("reference", &photographs, &reference));
+    assert!(furthest(&out, &reference) < 2e-3);
+}
+
+/// A GPU imitated by the processor; few machines have one installed.
+#[test]
+fn the_gpu_agrees() {
+    let (place, photographs, out) = prepared();
+    let gpu = place.path().join("gpu");
+    let command = &mut on_device("software-gpu", &photographs, &gpu);
+    let output = command.output().unwrap();
+    let said_wrong = String::from_utf8(output.stderr).unwrap();
+    if said_wrong.starts_with("error: no GPU can be used") {
+        eprintln!("skipped: no software GPU on this machine");
+        return;
+    }
+    assert!(output.status.success(), "{said_wrong}");
+    let report = read_json(&gpu.join("report.json"));
+    assert!(
+        report["device"]
+            .as_str()
+            .unwrap()
+            .starts_with("software GPU")
+    );
+    said(estimate(
+        &photographs,
+        &out,
+        &["--images", "3", "--no-refit"],
+    ));
+    assert!(furthest(&out, &gpu) < 2e-3);
+}
+
+#[test]
+fn software_is_not_taken_for_a_gpu() {
+    let (_place, photographs, out) = prepared();
+    let output = on_device("gpu", &photographs, &out).output().unwrap();
+    let said_wrong = String::from_utf8(output.stderr).unwrap();
+    if output.status.success() {
+        let device = read_json(&out.join("report.json"))["device"].clone();
+        assert!(device.as_str().unwrap().starts_with("GPU"));
+    } else {
+        assert!(
+            said_wrong.contains("--device cpu") && !out.exists(),
+            "{said_wrong}"
+        );
+    }
+}
+
+fn on_device(device: &str, photographs: &Path, out: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_normalight"));
+    command.args(["estimate", path(photographs), "--out", path(out)]);
+    command.args(["--device", device, "--images", "3", "--no-refit"]);
+    command
+}
+
+/// The largest difference between the normals in two folders.
+fn furthest(one: &Path, two: &Path) -> f32 {
+    let [one, two] = [one, two].map(|folder| read_npy(&folder.join("normals.npy")));
+    let far = one
+        .iter()
+        .zip(&two)
+        .flat_map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()));
+    far.fold(0.0, f32::max)
+}
