@@ -1,0 +1,92 @@
+//! The pipeline, bound to a device.
+use crate::error::Failure;
+use crate::file::{InputFile, named_bytes};
+use crate::result::{Run, result};
+use crate::settings::Settings;
+use crate::watcher::{Follower, Watcher};
+use burn::tensor::Device;
+use normalight_io::{NamedBytes, read_stack};
+use normalight_model::{Estimator, default_weights};
+use wasm_bindgen::prelude::*;
+
+/// The shipped networks on a device.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Engine {
+    estimator: Estimator,
+    device: String,
+}
+
+#[wasm_bindgen]
+impl Engine {
+    /// On the processor; `device` is its name in reports.
+    ///
+    /// # Errors
+    /// Weights that do not fit: a broken build.
+    pub fn on_cpu(device: String) -> Result<Engine, Failure> {
+        Self::on(Device::flex(), device)
+    }
+
+    /// On the browser's GPU, which can be started once; `device` is its name in reports.
+    ///
+    /// # Errors
+    /// WebGPU does not start.
+    pub async fn on_gpu(device: String) -> Result<Engine, Failure> {
+        let gpu = Device::wgpu_options()
+            .init_async()
+            .await
+            .map_err(|error| Failure::Device(error.to_string()))?;
+        Self::on(gpu, device)
+    }
+
+    fn on(device: Device, name: String) -> Result<Engine, Failure> {
+        let [light, normal] = default_weights()?;
+        Ok(Self {
+            estimator: Estimator::new(&light, &normal, device)?,
+            device: name,
+        })
+    }
+
+    /// From files to lights and normals. A `mask` or `lights` file replaces what would be found.
+    ///
+    /// # Errors
+    /// Files or settings that do not do, a watcher that says stop, a device that fails.
+    pub async fn estimate(
+        &self,
+        files: Vec<InputFile>,
+        mask: Option<InputFile>,
+        lights: Option<InputFile>,
+        settings: JsValue,
+        watcher: Watcher,
+    ) -> Result<JsValue, Failure> {
+        let settings = Settings::from_js(settings)?;
+        let mut follower = Follower::start(&watcher).await.ok_or(Failure::Cancelled)?;
+        let reading = settings.reading(mask.map(NamedBytes::from));
+        let input = read_stack(named_bytes(files), &reading)?;
+        let lights = lights.map(NamedBytes::from);
+        let given = lights
+            .as_ref()
+            .map(|file| input.read_lights(&file.name, &file.bytes))
+            .transpose()?;
+        follower.read();
+        let estimate = self
+            .estimator
+            .estimate(
+                &input.stack,
+                &input.mask,
+                given.as_deref(),
+                settings.estimating(),
+                &mut follower,
+            )
+            .await?;
+        result(&Run {
+            input: &input,
+            estimate: &estimate,
+            settings: &settings,
+            lights_file: lights.as_ref().map(|file| file.name.as_str()),
+            weights: self.estimator.weight_hashes(),
+            device: &self.device,
+            seconds: follower.finish(),
+        })
+    }
+}

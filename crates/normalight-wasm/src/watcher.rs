@@ -1,0 +1,90 @@
+//! Progress out, cancelling in, and the clock.
+use normalight_io::StageSeconds;
+use normalight_model::{Observer, Progress, StageTimes};
+use std::ops::ControlFlow;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = "
+/** Follows a run. */
+export interface Watcher {
+  /** Hears of progress (a stage and the share of it that is done), lets the event loop run, and says whether to go on. */
+  report(stage: string, fraction: number): Promise<boolean>;
+}
+";
+
+#[wasm_bindgen]
+extern "C" {
+    /// Follows a run: an object whose `report(stage, fraction)` lets the event loop run and then
+    /// says whether to go on.
+    #[wasm_bindgen(typescript_type = "Watcher")]
+    pub type Watcher;
+
+    #[wasm_bindgen(method, catch)]
+    async fn report(this: &Watcher, stage: &str, fraction: f32) -> Result<JsValue, JsValue>;
+
+    #[wasm_bindgen(js_namespace = performance)]
+    fn now() -> f64;
+}
+
+/// Reading comes before the pipeline and its stages.
+const READING: &str = "reading";
+
+/// Passes the pipeline's progress on and takes the time of its stages.
+pub(crate) struct Follower<'a> {
+    watcher: &'a Watcher,
+    started: f64,
+    read: f64,
+    stages: StageTimes,
+}
+
+impl<'a> Follower<'a> {
+    /// Begins with the reading of the files; `None` when the run is cancelled already.
+    pub(crate) async fn start(watcher: &'a Watcher) -> Option<Self> {
+        let go_on = tell(watcher, READING, 0.0).await;
+        go_on.is_continue().then(|| Self {
+            watcher,
+            started: seconds(),
+            read: 0.0,
+            stages: StageTimes::default(),
+        })
+    }
+
+    /// The files are read.
+    pub(crate) fn read(&mut self) {
+        self.read = seconds() - self.started;
+    }
+
+    /// Seconds per stage, the reading first.
+    pub(crate) fn finish(mut self) -> Vec<StageSeconds> {
+        let reading = StageSeconds {
+            stage: READING.to_owned(),
+            seconds: self.read,
+        };
+        let stages = self.stages.finish(seconds()).iter();
+        let stages = stages.map(|&(stage, seconds)| StageSeconds {
+            stage: stage.name().to_owned(),
+            seconds,
+        });
+        std::iter::once(reading).chain(stages).collect()
+    }
+}
+
+impl Observer for Follower<'_> {
+    async fn report(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.stages.note(progress, seconds());
+        tell(self.watcher, progress.stage.name(), progress.fraction).await
+    }
+}
+
+async fn tell(watcher: &Watcher, stage: &str, fraction: f32) -> ControlFlow<()> {
+    match watcher.report(stage, fraction).await {
+        Ok(answer) if answer.is_truthy() => ControlFlow::Continue(()),
+        // A watcher that fails cannot be asked to cancel any more.
+        _ => ControlFlow::Break(()),
+    }
+}
+
+fn seconds() -> f64 {
+    now() / 1000.0
+}

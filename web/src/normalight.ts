@@ -1,0 +1,152 @@
+import { Connection, type Follow } from "./connection.js";
+import { NormalightError } from "./errors.js";
+import { Aggregate } from "./progress.js";
+import type { TaskName, Tasks } from "./protocol.js";
+import type {
+  ColorMode,
+  CreateOptions,
+  DeviceReport,
+  Estimate,
+  EstimateOptions,
+  NamedFile,
+  Plan,
+  StackFile,
+  Thumbnail,
+} from "./types.js";
+
+/**
+ * Estimates lights and surface normals in a worker. Calls may overlap; they are done one after the other.
+ *
+ * ```ts
+ * const normalight = await Normalight.create();
+ * const { lights, files } = await normalight.estimate(input.files);
+ * ```
+ */
+export class Normalight {
+  readonly #options: CreateOptions;
+  #connection: Connection | undefined;
+  #device: DeviceReport | undefined;
+  #queue: Promise<unknown> = Promise.resolve();
+  #closed = false;
+
+  private constructor(options: CreateOptions) {
+    this.#options = options;
+  }
+
+  /** Loads the module with its networks and starts the device. */
+  static async create(options: CreateOptions = {}): Promise<Normalight> {
+    const normalight = new Normalight(options);
+    await normalight.#open();
+    return normalight;
+  }
+
+  /** What computes. */
+  get device(): DeviceReport {
+    if (this.#device === undefined) throw new NormalightError("closed", "no device was started");
+    return this.#device;
+  }
+
+  /**
+   * From photographs (3 or more, of one size, perhaps with a list and a mask) to lights and normals.
+   *
+   * @throws NormalightError, or the signal's reason when it was cancelled
+   */
+  estimate(files: Iterable<StackFile>, options: EstimateOptions = {}): Promise<Estimate> {
+    const { mask = "auto", lights, signal, onProgress } = options;
+    const aggregate = new Aggregate();
+    return this.#run(
+      "estimate",
+      {
+        files: [...files],
+        mask: typeof mask === "string" ? undefined : mask,
+        lights,
+        settings: {
+          color: options.color ?? "auto",
+          mask: mask === "none" ? "none" : "auto",
+          images: options.images,
+          normalFormat: options.normalFormat ?? "opengl",
+          refit: options.refit ?? true,
+        },
+      },
+      {
+        signal,
+        onNews(news) {
+          if (news.news === "progress") onProgress?.(aggregate.at(news.stage, news.fraction));
+        },
+      },
+    );
+  }
+
+  /** Which of the files are the photographs, in which order, and which is the mask. */
+  plan(files: Iterable<StackFile>): Promise<Plan> {
+    return this.#run("plan", { files: [...files] });
+  }
+
+  /** A photograph with its longer side brought down to `side` pixels; formats that browsers cannot show work too. */
+  thumbnail(
+    file: StackFile,
+    { color = "auto", side = 160, signal }: { color?: ColorMode; side?: number; signal?: AbortSignal } = {},
+  ): Promise<Thumbnail> {
+    return this.#run("thumbnail", { file, color, side }, { signal });
+  }
+
+  /** A rendered stack, to try the estimation with. */
+  renderSample(): Promise<NamedFile[]> {
+    return this.#run("sample", {});
+  }
+
+  /** Ends the worker and all calls; the object is of no use any more. */
+  close(): void {
+    this.#closed = true;
+    this.#connection?.lose(closed());
+  }
+
+  async #run<T extends TaskName>(
+    task: T,
+    ask: Tasks[T]["ask"],
+    follow: Follow = {},
+  ): Promise<Tasks[T]["answer"]> {
+    const turn = this.#queue.then(async () => {
+      follow.signal?.throwIfAborted();
+      const connection = await this.#open();
+      return await connection.run(task, ask, follow);
+    });
+    // A call that fails must not keep the next from its turn.
+    this.#queue = turn.catch(() => undefined);
+    return await turn;
+  }
+
+  /** The worker; a new one after a crash. */
+  async #open(): Promise<Connection> {
+    if (this.#closed) throw closed();
+    if (this.#connection && !this.#connection.lost) return this.#connection;
+    const { device = "auto" } = this.#options;
+    try {
+      return await this.#start(device);
+    } catch (error) {
+      const broken = error instanceof NormalightError && error.kind === "crashed";
+      if (!broken || device === "cpu" || this.#closed) throw error;
+      const connection = await this.#start("cpu");
+      const notice = `WebGPU does not start (${error.message}), so the processor computes.`;
+      this.#device = { ...this.device, notice };
+      return connection;
+    }
+  }
+
+  async #start(device: "auto" | "gpu" | "cpu"): Promise<Connection> {
+    // A literal, so that bundlers find the worker and its parts.
+    const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+    const connection = new Connection(worker);
+    this.#connection = connection;
+    this.#device = await connection.run(
+      "create",
+      { device },
+      { onNews: (news) => news.news === "load" && this.#options.onLoad?.(news.fraction) },
+    );
+    return connection;
+  }
+}
+
+function closed(): NormalightError {
+  return new NormalightError("closed", "this estimator was closed");
+}

@@ -1,0 +1,126 @@
+import type { Engine } from "../wasm/normalight.js";
+import { chooseDevice, cpu } from "./device.js";
+import { load, type Module } from "./load.js";
+import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
+import type { DeviceChoice, DeviceReport, NamedFile, StackFile, Stage } from "./types.js";
+import { yieldToEvents } from "./yielding.js";
+
+/** The part of a worker's global scope that is used here. */
+interface Scope {
+  postMessage(message: FromWorker, transfer: Transferable[]): void;
+  addEventListener(type: "message", listener: (event: MessageEvent<ToWorker>) => void): void;
+  addEventListener(type: "unhandledrejection", listener: (event: PromiseRejectionEvent) => void): void;
+}
+
+const scope = self as unknown as Scope;
+
+let module: Promise<Module> | undefined;
+let engine: Engine | undefined;
+let cancelled = false;
+
+scope.addEventListener("message", ({ data }) => {
+  if (data.task === "cancel") cancelled = true;
+  else void answer(data);
+});
+
+// Calls into the module that were under way when it broke down never end by themselves.
+scope.addEventListener("unhandledrejection", ({ reason }) => crashed(String(reason)));
+
+async function answer(request: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
+  cancelled = false;
+  try {
+    const answer = await perform(request);
+    scope.postMessage({ news: "done", answer }, buffers(answer));
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) crashed(error.message);
+    else tell({ news: "failed", ...failure(error) });
+  }
+}
+
+async function perform(request: Exclude<ToWorker, { task: "cancel" }>): Promise<Tasks[TaskName]["answer"]> {
+  module ??= load((fraction) => tell({ news: "load", fraction }), crashed);
+  const wasm = await module;
+  switch (request.task) {
+    case "create":
+      return await create(wasm, request.ask.device);
+    case "plan":
+      return wasm.plan(await Promise.all(request.ask.files.map(readText)));
+    case "thumbnail": {
+      const { file, color, side } = request.ask;
+      return wasm.thumbnail(await read(file), color, side);
+    }
+    case "sample":
+      return wasm.render_sample();
+    case "estimate":
+      return await estimate(request.ask);
+  }
+}
+
+async function create(wasm: Module, choice: DeviceChoice): Promise<DeviceReport> {
+  let device = await chooseDevice(choice, navigator.gpu);
+  if (device.kind === "gpu") {
+    try {
+      engine = await wasm.Engine.on_gpu(device.name);
+      return device;
+    } catch (error) {
+      device = cpu(`WebGPU does not start (${failure(error).message}), so the processor computes.`);
+    }
+  }
+  engine = wasm.Engine.on_cpu(device.name);
+  return device;
+}
+
+async function estimate(ask: Tasks["estimate"]["ask"]): Promise<Tasks["estimate"]["answer"]> {
+  if (engine === undefined) throw new Error("no device was chosen");
+  const files: NamedFile[] = [];
+  for (const file of ask.files) {
+    files.push(await read(file));
+    if (cancelled) throw { kind: "cancelled", message: "cancelled" };
+  }
+  const mask = ask.mask && (await read(ask.mask));
+  const lights = ask.lights && (await read(ask.lights));
+  return await engine.estimate(files, mask, lights, ask.settings, {
+    async report(stage: string, fraction: number): Promise<boolean> {
+      tell({ news: "progress", stage: stage as Stage, fraction });
+      await yieldToEvents();
+      return !cancelled;
+    },
+  });
+}
+
+async function read(file: StackFile): Promise<NamedFile> {
+  if (!(file instanceof Blob)) return file;
+  try {
+    return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+  } catch (error) {
+    throw { kind: "input", message: `${file.name}: cannot be read: ${failure(error).message}` };
+  }
+}
+
+/** A text with its content, another file with its name only. */
+async function readText(file: StackFile): Promise<NamedFile> {
+  return /\.txt$/i.test(file.name) ? await read(file) : { name: file.name, bytes: new Uint8Array() };
+}
+
+/** The module throws `{ kind, message }`; everything else is a surprise. */
+function failure(error: unknown): { kind: "input" | "device" | "cancelled"; message: string } {
+  const { kind, message } = Object(error) as { kind?: unknown; message?: unknown };
+  return {
+    kind: kind === "input" || kind === "cancelled" ? kind : "device",
+    message: typeof message === "string" ? message : String(error),
+  };
+}
+
+function crashed(message: string): void {
+  tell({ news: "crashed", message });
+}
+
+function tell(message: FromWorker): void {
+  scope.postMessage(message, []);
+}
+
+/** The buffers in an answer: they are handed over instead of copied. */
+function buffers(value: unknown): ArrayBuffer[] {
+  if (value instanceof Uint8Array) return [value.buffer as ArrayBuffer];
+  return typeof value === "object" && value !== null ? Object.values(value).flatMap(buffers) : [];
+}

@@ -1,0 +1,77 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Connection } from "../dist/connection.js";
+import { NormalightError } from "../dist/errors.js";
+
+/** A worker that the test plays. */
+class Played {
+  asked = [];
+  terminated = false;
+  onmessage = null;
+  onerror = null;
+  postMessage(message) {
+    this.asked.push(message);
+  }
+  terminate() {
+    this.terminated = true;
+  }
+  say(data) {
+    this.onmessage({ data });
+  }
+}
+
+function connect() {
+  const worker = new Played();
+  return { worker, connection: new Connection(worker) };
+}
+
+test("answers and news come back", async () => {
+  const { worker, connection } = connect();
+  const heard = [];
+  const answer = connection.run("plan", { files: [] }, { onNews: (news) => heard.push(news.fraction) });
+  assert.deepEqual(worker.asked, [{ task: "plan", ask: { files: [] } }]);
+  worker.say({ news: "progress", stage: "lights", fraction: 0.5 });
+  worker.say({ news: "done", answer: { images: [1] } });
+  assert.deepEqual(await answer, { images: [1] });
+  assert.deepEqual(heard, [0.5]);
+});
+
+test("failures are typed", async () => {
+  const { worker, connection } = connect();
+  const answer = connection.run("plan", { files: [] });
+  worker.say({ news: "failed", kind: "input", message: "a.png: broken" });
+  await assert.rejects(answer, new NormalightError("input", "a.png: broken"));
+  assert.equal(connection.lost, false);
+});
+
+test("a cancelled task rejects with the signal's reason", async () => {
+  const { worker, connection } = connect();
+  const controller = new AbortController();
+  const answer = connection.run("sample", {}, { signal: controller.signal });
+  controller.abort(new Error("enough"));
+  assert.deepEqual(worker.asked.at(-1), { task: "cancel" });
+  worker.say({ news: "failed", kind: "cancelled", message: "cancelled" });
+  await assert.rejects(answer, /enough/);
+  assert.equal(connection.lost, false);
+});
+
+test("a task that does not hear the cancel loses its worker", async (t) => {
+  t.mock.timers.enable({ apis: ["setTimeout"] });
+  const { worker, connection } = connect();
+  const controller = new AbortController();
+  const answer = connection.run("sample", {}, { signal: controller.signal });
+  controller.abort();
+  t.mock.timers.tick(3000);
+  await assert.rejects(answer, { name: "AbortError" });
+  assert.equal(worker.terminated, true);
+  assert.equal(connection.lost, true);
+});
+
+test("after a crash every task fails with its words", async () => {
+  const { worker, connection } = connect();
+  const answer = connection.run("sample", {});
+  worker.say({ news: "crashed", message: "index out of bounds" });
+  await assert.rejects(answer, { kind: "crashed", message: /index out of bounds/ });
+  await assert.rejects(connection.run("sample", {}), { kind: "crashed" });
+  assert.equal(worker.terminated, true);
+});

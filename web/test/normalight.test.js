@@ -1,0 +1,88 @@
+import assert from "node:assert/strict";
+import { afterEach, test } from "node:test";
+import { Normalight } from "../dist/normalight.js";
+
+/** Workers that were started, in order. @type {PlayedWorker[]} */
+let started = [];
+/** What workers answer, by task. */
+let answers = {};
+
+class PlayedWorker {
+  asked = [];
+  terminated = false;
+  onmessage = null;
+  onerror = null;
+  constructor() {
+    started.push(this);
+  }
+  postMessage(message) {
+    this.asked.push(message);
+    const answer = answers[message.task]?.(message.ask, this);
+    if (answer) queueMicrotask(() => this.onmessage?.({ data: answer }));
+  }
+  terminate() {
+    this.terminated = true;
+  }
+}
+
+globalThis.Worker = PlayedWorker;
+afterEach(() => {
+  started = [];
+  answers = {};
+});
+
+const done = (answer) => ({ news: "done", answer });
+const crashed = { news: "crashed", message: "unreachable" };
+const deviceOf = ({ device }) => done({ kind: device === "cpu" ? "cpu" : "gpu", name: device });
+
+test("calls are done one after the other", async () => {
+  answers = { create: deviceOf, sample: () => done([]), plan: () => undefined };
+  const normalight = await Normalight.create({ device: "cpu" });
+  const plan = normalight.plan([]);
+  const sample = normalight.renderSample();
+  await new Promise((resolve) => setTimeout(resolve, 5));
+  const tasks = () => started[0].asked.map(({ task }) => task);
+  assert.deepEqual(tasks(), ["create", "plan"]);
+  started[0].onmessage({ data: { news: "failed", kind: "input", message: "bad list" } });
+  await assert.rejects(plan, { kind: "input" });
+  assert.deepEqual(await sample, []);
+  assert.deepEqual(tasks(), ["create", "plan", "sample"]);
+});
+
+test("after a crash the next call gets a new worker", async () => {
+  answers = { create: deviceOf, plan: () => crashed, sample: () => done([]) };
+  const normalight = await Normalight.create({ device: "gpu" });
+  await assert.rejects(normalight.plan([]), { kind: "crashed" });
+  assert.deepEqual(await normalight.renderSample(), []);
+  assert.equal(started.length, 2);
+  assert.equal(normalight.device.kind, "gpu");
+});
+
+test("a GPU that breaks at the start gives way to the processor", async () => {
+  answers = { create: (ask) => (ask.device === "cpu" ? deviceOf(ask) : crashed) };
+  const normalight = await Normalight.create({ device: "gpu" });
+  assert.equal(normalight.device.kind, "cpu");
+  assert.match(
+    normalight.device.notice,
+    /^WebGPU does not start .*unreachable.* so the processor computes\.$/,
+  );
+});
+
+test("a closed estimator refuses, and ends what is under way", async () => {
+  answers = { create: deviceOf };
+  const normalight = await Normalight.create({ device: "cpu" });
+  const plan = normalight.plan([]);
+  await new Promise((resolve) => setTimeout(resolve, 5));
+  normalight.close();
+  await assert.rejects(plan, { kind: "closed" });
+  await assert.rejects(normalight.renderSample(), { kind: "closed" });
+  assert.equal(started[0].terminated, true);
+});
+
+test("a call that was cancelled before its turn is never begun", async () => {
+  answers = { create: deviceOf };
+  const normalight = await Normalight.create({ device: "cpu" });
+  const sample = normalight.estimate([], { signal: AbortSignal.abort() });
+  await assert.rejects(sample, { name: "AbortError" });
+  assert.equal(started[0].asked.length, 1);
+});

@@ -1,0 +1,54 @@
+/** An element of the page that is known to be there. */
+export function byId<E extends HTMLElement = HTMLElement>(id: string): E {
+  const element = document.getElementById(id);
+  if (element === null) throw new Error(`the page has no element #${id}`);
+  return element as E;
+}
+
+/** A new element with a class and content. */
+export function make<K extends keyof HTMLElementTagNameMap>(
+  name: K,
+  className = "",
+  ...content: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(name);
+  if (className) element.className = className;
+  element.append(...content);
+  return element;
+}
+
+/** The drawing context of a canvas. */
+export function context(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+  const drawing = canvas.getContext("2d");
+  if (drawing === null) throw new Error("this browser cannot draw");
+  return drawing;
+}
+
+/** Puts RGBA pixels on a canvas, which takes their size. */
+export function paint(
+  canvas: HTMLCanvasElement,
+  width: number,
+  height: number,
+  rgba: Uint8Array<ArrayBuffer>,
+): void {
+  canvas.width = width;
+  canvas.height = height;
+  const pixels = new Uint8ClampedArray(rgba.buffer, rgba.byteOffset, rgba.byteLength);
+  context(canvas).putImageData(new ImageData(pixels, width, height), 0, 0);
+}
+
+/** Shows words in an element, which is hidden while there are none. */
+export function say(element: HTMLElement, words: string): void {
+  element.hidden = words === "";
+  element.textContent = words;
+}
+
+/** What a failure says to people. */
+export function wordsOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** The value of a group of radio buttons. */
+export function chosen(form: HTMLFormElement, name: string): string {
+  return String(new FormData(form).get(name));
+}

@@ -1,0 +1,87 @@
+import { type DeviceChoice, Normalight, NormalightError } from "normalight";
+import { byId, say, wordsOf } from "./dom.js";
+
+/** The estimator on the chosen device, and the words about it. */
+export class Engine {
+  readonly #pill = byId("engine");
+  readonly #words = byId("engine-words");
+  readonly #notice = byId("device-notice");
+  #choice: DeviceChoice = "auto";
+  #current: Promise<Normalight>;
+  /** What `#current` gave. */
+  #live: Normalight | undefined;
+
+  constructor() {
+    this.#current = this.#start();
+  }
+
+  /** Starts the estimator anew on another device. */
+  use(choice: DeviceChoice): void {
+    if (choice === this.#choice) return;
+    this.#choice = choice;
+    this.#current.then((normalight) => normalight.close()).catch(() => undefined);
+    this.#current = this.#start();
+  }
+
+  /** Does something with the estimator; once more when another device was chosen meanwhile. */
+  async with<T>(work: (normalight: Normalight) => Promise<T>): Promise<T> {
+    for (;;) {
+      const normalight = await this.ready();
+      try {
+        return await work(normalight);
+      } catch (error) {
+        if (!(error instanceof NormalightError && error.kind === "closed")) throw error;
+      } finally {
+        // A crash may have changed it.
+        this.#tell(normalight);
+      }
+    }
+  }
+
+  /** The estimator, as soon as it is ready; after a failed start it is tried again. */
+  private async ready(): Promise<Normalight> {
+    const current = this.#current;
+    try {
+      return await current;
+    } catch {
+      if (current === this.#current) this.#current = this.#start();
+      return await this.#current;
+    }
+  }
+
+  #start(): Promise<Normalight> {
+    this.#live = undefined;
+    this.#show("loading", "Loading");
+    say(this.#notice, "");
+    const started = Normalight.create({
+      device: this.#choice,
+      onLoad: (fraction) => {
+        if (this.#current === started) this.#show("loading", `Loading ${Math.round(100 * fraction)} %`);
+      },
+    });
+    started.then(
+      (normalight) => {
+        if (this.#current !== started) return;
+        this.#live = normalight;
+        this.#tell(normalight);
+      },
+      (error: unknown) => {
+        if (this.#current === started) this.#show("failed", wordsOf(error));
+      },
+    );
+    return started;
+  }
+
+  /** Says what computes, unless another device was chosen meanwhile. */
+  #tell(normalight: Normalight): void {
+    if (normalight !== this.#live) return;
+    const { kind, notice } = normalight.device;
+    this.#show("ready", kind === "gpu" ? "Ready on the GPU" : "Ready on the CPU");
+    say(this.#notice, notice ?? "");
+  }
+
+  #show(state: "loading" | "ready" | "failed", words: string): void {
+    this.#pill.dataset.state = state;
+    this.#words.textContent = words;
+  }
+}

@@ -1,0 +1,73 @@
+import { byId, wordsOf } from "./dom.js";
+import { Engine } from "./engine.js";
+import { filesOfDrop, filesOfFolder } from "./files.js";
+import { Intro } from "./intro.js";
+import { ResultView } from "./result.js";
+import { Run } from "./run.js";
+import { Settings } from "./settings.js";
+import { Stack } from "./stack.js";
+
+const form = byId<HTMLFormElement>("bench");
+const intro = new Intro();
+const engine = new Engine();
+const stack = new Stack(engine, () => run.stackChanged());
+const settings = new Settings(form, {
+  device: () => engine.use(settings.device),
+  color: () => {
+    stack.color = settings.color;
+  },
+});
+const result = new ResultView();
+const run = new Run(form, engine, stack, settings, (estimate) => {
+  intro.hide();
+  result.show(estimate, settings.options.normalFormat ?? "opengl");
+});
+
+/** Connects a button with the file input that it stands for. */
+function connect(button: string, input: string, take: (files: File[]) => void): void {
+  const picker = byId<HTMLInputElement>(input);
+  byId(button).addEventListener("click", () => picker.click());
+  picker.addEventListener("change", () => {
+    take([...(picker.files ?? [])]);
+    // Choosing the same files again must be noticed too.
+    picker.value = "";
+  });
+}
+
+connect("pick-files", "files", (files) => stack.take(files));
+connect("pick-folder", "folder", (files) => stack.take(filesOfFolder(files)));
+connect("add", "more", (files) => stack.take(files, true));
+byId("clear").addEventListener("click", () => stack.take([]));
+
+const sample = byId<HTMLButtonElement>("sample");
+sample.addEventListener("click", async () => {
+  sample.disabled = true;
+  try {
+    const files = await engine.with((normalight) => normalight.renderSample());
+    stack.take(files.map(({ name, bytes }) => new File([bytes], name)));
+  } catch (error) {
+    run.fail(wordsOf(error));
+  } finally {
+    sample.disabled = false;
+  }
+});
+
+// Anywhere on the page: a file that misses its target would replace the page.
+const page = document.documentElement;
+page.addEventListener("dragover", (event) => {
+  event.preventDefault();
+  page.classList.add("dragging");
+});
+page.addEventListener("dragleave", (event) => {
+  if (event.relatedTarget === null) page.classList.remove("dragging");
+});
+page.addEventListener("drop", async (event) => {
+  event.preventDefault();
+  page.classList.remove("dragging");
+  if (!event.dataTransfer || run.underWay) return;
+  try {
+    stack.take(await filesOfDrop(event.dataTransfer));
+  } catch (error) {
+    run.fail(wordsOf(error));
+  }
+});

@@ -1,0 +1,97 @@
+import type { Estimate, Progress } from "normalight";
+import { byId, say, wordsOf } from "./dom.js";
+import type { Engine } from "./engine.js";
+import { ProgressView } from "./progress.js";
+import type { Settings } from "./settings.js";
+import type { Stack } from "./stack.js";
+
+/** Starts, follows and cancels runs. */
+export class Run {
+  readonly #start = byId<HTMLButtonElement>("start");
+  readonly #cancel = byId<HTMLButtonElement>("cancel");
+  readonly #problem = byId("run-problem");
+  readonly #status = byId("status");
+  readonly #progress = new ProgressView();
+  #running: AbortController | undefined;
+
+  constructor(
+    private readonly form: HTMLFormElement,
+    private readonly engine: Engine,
+    private readonly stack: Stack,
+    private readonly settings: Settings,
+    private readonly finished: (estimate: Estimate) => void,
+  ) {
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.#run();
+    });
+    this.#cancel.addEventListener("click", () => this.#running?.abort());
+  }
+
+  /** Whether a run is under way. */
+  get underWay(): boolean {
+    return this.#running !== undefined;
+  }
+
+  /** Says what went wrong. */
+  fail(words: string): void {
+    say(this.#problem, words);
+  }
+
+  /** The stack has changed: what was said about the last one is out of date. */
+  stackChanged(): void {
+    this.#start.disabled = this.stack.files.length === 0;
+    say(this.#problem, "");
+    say(this.#status, "");
+  }
+
+  async #run(): Promise<void> {
+    if (this.#running) return;
+    const running = new AbortController();
+    this.#running = running;
+    this.#show(true);
+    say(this.#problem, "");
+    say(this.#status, "");
+    const estimate = await this.#estimate(running.signal);
+    this.#running = undefined;
+    this.#show(false);
+    // Only now: the page has its final shape, and the focus goes to the result.
+    if (estimate) this.finished(estimate);
+  }
+
+  /** The result; nothing when there is none, which the page then says. */
+  async #estimate(signal: AbortSignal): Promise<Estimate | undefined> {
+    const options = {
+      ...this.settings.options,
+      signal,
+      onProgress: (progress: Progress) => this.#progress.show(progress),
+    };
+    try {
+      const estimate = await this.engine.with((normalight) => normalight.estimate(this.stack.files, options));
+      say(this.#status, `Done in ${total(estimate).toFixed(1)} s.`);
+      return estimate;
+    } catch (error) {
+      if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
+      else say(this.#problem, wordsOf(error));
+      return undefined;
+    }
+  }
+
+  /** While a run is under way nothing but cancelling is possible. */
+  #show(running: boolean): void {
+    for (const panel of this.form.querySelectorAll<HTMLElement>(".panel:not(.run)")) panel.inert = running;
+    this.#start.hidden = running;
+    if (running) {
+      this.#progress.start();
+      this.#cancel.focus();
+    } else {
+      this.#progress.end();
+      this.#start.focus({ preventScroll: true });
+    }
+  }
+}
+
+/** Seconds of all stages. */
+export function total({ seconds }: Estimate): number {
+  return seconds.reduce((sum, stage) => sum + stage.seconds, 0);
+}

@@ -1,0 +1,70 @@
+import type { ColorMode, DeviceChoice, EstimateOptions } from "normalight";
+import { byId, chosen } from "./dom.js";
+
+/** A setting that may be a file: its radio button asks for one. */
+class FileSetting {
+  readonly #form: HTMLFormElement;
+  readonly #name: string;
+  #file: File | undefined;
+
+  constructor(form: HTMLFormElement, name: string) {
+    this.#form = form;
+    this.#name = name;
+    const input = byId<HTMLInputElement>(`${name}-file`);
+    const label = byId(`${name}-name`);
+    const radio = form.querySelector<HTMLInputElement>(`input[name="${name}"][value="file"]`);
+    // A click on the chosen button asks again: `change` would not come.
+    radio?.addEventListener("click", () => input.click());
+    input.addEventListener("change", () => {
+      this.#file = input.files?.[0] ?? this.#file;
+      label.textContent = this.#file?.name ?? "File…";
+      input.value = "";
+    });
+    input.addEventListener("cancel", () => {
+      if (!this.#file) form.querySelector<HTMLInputElement>(`input[name="${name}"]`)?.click();
+    });
+  }
+
+  /** The file, when one was chosen and is to be used. */
+  get file(): File | undefined {
+    return chosen(this.#form, this.#name) === "file" ? this.#file : undefined;
+  }
+}
+
+/** What the form says about how to estimate. */
+export class Settings {
+  readonly #form: HTMLFormElement;
+  readonly #mask: FileSetting;
+  readonly #lights: FileSetting;
+
+  constructor(form: HTMLFormElement, changed: { device(): void; color(): void }) {
+    this.#form = form;
+    this.#mask = new FileSetting(form, "mask");
+    this.#lights = new FileSetting(form, "lights");
+    form.addEventListener("change", ({ target }) => {
+      const name = target instanceof HTMLInputElement ? target.name : "";
+      if (name === "device" || name === "color") changed[name]();
+    });
+  }
+
+  get device(): DeviceChoice {
+    return chosen(this.#form, "device") as DeviceChoice;
+  }
+
+  get color(): ColorMode {
+    return chosen(this.#form, "color") as ColorMode;
+  }
+
+  get options(): EstimateOptions {
+    const lights = this.#lights.file;
+    const images = chosen(this.#form, "images");
+    const wholeFrame = chosen(this.#form, "mask") === "none";
+    return {
+      color: this.color,
+      mask: this.#mask.file ?? (wholeFrame ? "none" : "auto"),
+      ...(lights ? { lights } : {}),
+      ...(images === "all" ? {} : { images: Number(images) }),
+      normalFormat: chosen(this.#form, "normal-format") as "opengl" | "directx",
+    };
+  }
+}

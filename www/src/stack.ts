@@ -1,0 +1,140 @@
+import type { ColorMode, Plan } from "normalight";
+import { byId, make, paint, say, wordsOf } from "./dom.js";
+import type { Engine } from "./engine.js";
+
+/** Longer side of a thumbnail in pixels. */
+const SIDE = 144;
+
+/** One file of the stack and its tile. */
+interface Entry {
+  readonly file: File;
+  readonly tile: HTMLLIElement;
+  readonly picture: HTMLCanvasElement;
+  /** Colour mode the thumbnail was made with; none yet when missing. */
+  shown?: ColorMode;
+  problem?: string;
+}
+
+/** The files of the user: in their order, with thumbnails, and with what is wrong with them. */
+export class Stack {
+  readonly #engine: Engine;
+  readonly #changed: () => void;
+  readonly #list = byId("thumbnails");
+  readonly #problems = byId("file-problems");
+  #entries: Entry[] = [];
+  #plan: Plan = { images: [] };
+  /** What is wrong with the files as a whole. */
+  #problem = "";
+  /** Ends the looking at files that are no longer asked for. */
+  #looking = new AbortController();
+  #color: ColorMode = "auto";
+
+  constructor(engine: Engine, changed: () => void) {
+    this.#engine = engine;
+    this.#changed = changed;
+  }
+
+  /** All files, photographs or not. */
+  get files(): File[] {
+    return this.#entries.map(({ file }) => file);
+  }
+
+  /** Takes other files; `keep` adds them, and replaces those of the same name. */
+  take(files: Iterable<File>, keep = false): void {
+    const added = [...files].map((file) => this.#entry(file));
+    const names = new Set(added.map(({ file }) => file.name));
+    const kept = keep ? this.#entries.filter(({ file }) => !names.has(file.name)) : [];
+    this.#entries = [...kept, ...added];
+    this.#look();
+  }
+
+  /** How samples are to be taken: thumbnails show it. */
+  set color(color: ColorMode) {
+    this.#color = color;
+    this.#look();
+  }
+
+  #entry(file: File): Entry {
+    const picture = make("canvas");
+    const remove = make("button", "remove", "×");
+    remove.type = "button";
+    remove.title = `Remove ${file.name}`;
+    remove.setAttribute("aria-label", remove.title);
+    const tile = make("li", "", picture, make("span", "name", file.name), remove);
+    tile.title = file.name;
+    const entry: Entry = { file, tile, picture };
+    remove.addEventListener("click", () => {
+      this.#entries = this.#entries.filter((other) => other !== entry);
+      this.#look();
+    });
+    return entry;
+  }
+
+  /** Finds out what the files are, and shows the photographs one after the other. */
+  async #look(): Promise<void> {
+    this.#looking.abort();
+    this.#looking = new AbortController();
+    const { signal } = this.#looking;
+    const [entries, color] = [this.#entries, this.#color];
+    this.#problem = "";
+    try {
+      const plan = await this.#engine.with((normalight) => normalight.plan(this.files));
+      if (signal.aborted) return;
+      this.#plan = plan;
+      this.#show();
+      for (const index of [...plan.images, plan.mask]) {
+        const entry = index === undefined ? undefined : entries[index];
+        if (entry && entry.shown !== color) await this.#lookAt(entry, color, signal);
+      }
+    } catch (error) {
+      if (signal.aborted) return;
+      this.#plan = { images: [] };
+      this.#problem = wordsOf(error);
+      this.#show();
+    }
+  }
+
+  async #lookAt(entry: Entry, color: ColorMode, signal: AbortSignal): Promise<void> {
+    const options = { color, side: SIDE, signal };
+    try {
+      const { width, height, rgba } = await this.#engine.with((normalight) =>
+        normalight.thumbnail(entry.file, options),
+      );
+      paint(entry.picture, width, height, rgba);
+      entry.shown = color;
+      entry.tile.dataset.state = "shown";
+    } catch (error) {
+      if (signal.aborted) throw error;
+      entry.shown = color;
+      entry.problem = wordsOf(error);
+      entry.tile.dataset.state = "bad";
+      this.#show();
+    }
+  }
+
+  #show(): void {
+    const { images, mask } = this.#plan;
+    const order = mask === undefined ? images : [...images, mask];
+    const shown = order.flatMap((index) => this.#entries[index] ?? []);
+    for (const entry of shown) entry.tile.classList.toggle("mask", entry === this.#entries[mask ?? -1]);
+    this.#list.replaceChildren(...shown.map(({ tile }) => tile));
+    byId("stack").hidden = this.#entries.length === 0;
+    byId("drop").classList.toggle("small", this.#entries.length > 0);
+    byId("stack-words").textContent = this.#words();
+    const bad = shown.flatMap(({ problem }) => problem ?? []);
+    this.#problems.hidden = bad.length === 0 && !this.#problem;
+    if (this.#problem) say(this.#problems, this.#problem);
+    else this.#problems.replaceChildren(...bad.map((words) => make("p", "", words)));
+    this.#changed();
+  }
+
+  #words(): string {
+    const { images, mask } = this.#plan;
+    const words = [images.length === 1 ? "1 photograph" : `${images.length} photographs`];
+    const maskFile = this.#entries[mask ?? -1];
+    if (maskFile) words.push(`mask ${maskFile.file.name}`);
+    const other = this.#entries.length - images.length - (maskFile ? 1 : 0);
+    if (other > 0) words.push(other === 1 ? "1 other file" : `${other} other files`);
+    return words.join(" · ");
+  }
+}

@@ -1,0 +1,64 @@
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Page } from "./support/page.js";
+
+/** @type {Page} */
+let page;
+
+before(async () => {
+  page = await Page.open({ webgpu: false });
+});
+after(() => page.close());
+
+test("without WebGPU the page says so and uses the processor", async () => {
+  for (const device of /** @type {const} */ (["auto", "gpu"])) {
+    assert.equal(await page.device(device), "Ready on the CPU");
+    const notice = (await page.page.textContent("#device-notice")) ?? "";
+    assert.match(notice, /WebGPU.*so the processor computes/);
+  }
+  await page.device("cpu");
+  assert.equal(await page.page.isVisible("#device-notice"), false);
+});
+
+test("a run can be cancelled, and the next one works", async () => {
+  await page.page.click("#sample");
+  await page.thumbnails(16);
+  await page.page.click("#start");
+  await page.page.waitForFunction(() => document.querySelector("#stages [data-state=now]") !== null);
+  await page.page.click("#cancel");
+  await page.page.waitForSelector("#start:visible");
+  assert.match((await page.page.textContent("#status")) ?? "", /^Cancelled/);
+  assert.equal(await page.page.isVisible("#result"), false);
+  assert.equal(await page.page.locator("#thumbnails li").count(), 16);
+
+  assert.equal(await page.estimate(), "");
+  assert.match((await page.page.textContent("#status")) ?? "", /^Done in/);
+});
+
+test("the sample's result is shown", async () => {
+  const { page: tab } = page;
+  assert.match((await tab.textContent("#facts")) ?? "", /16 of 192 × 192 pixels.*CPU/);
+  assert.equal(await tab.locator("#lights tr").count(), 16);
+  assert.equal(await tab.locator("#light-map circle title").count(), 16);
+  assert.match((await tab.textContent("#seconds")) ?? "", /reading.*lights.*normals.*refit.*albedo/);
+  for (const canvas of ["relight", "normals", "albedo"]) {
+    assert.ok((await opaquePixels(canvas)) > 2000, `${canvas} is empty`);
+  }
+  const before = await tab.locator("#relight").screenshot();
+  await tab.locator("#relight").press("ArrowRight");
+  await tab.locator("#relight").press("ArrowRight");
+  await tab.waitForTimeout(100);
+  assert.notDeepEqual(await tab.locator("#relight").screenshot(), before, "the lamp does not move");
+  page.assertQuiet();
+});
+
+/** Pixels of a canvas on which something is painted. @param {string} id */
+function opaquePixels(id) {
+  return page.page.evaluate((name) => {
+    const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById(name));
+    const data = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+    return data.filter(
+      (/** @type {number} */ value, /** @type {number} */ at) => at % 4 === 3 && value === 255,
+    ).length;
+  }, id);
+}

@@ -1,0 +1,119 @@
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+import { preview } from "vite";
+
+/** Milliseconds for the longest step, a run on a GPU that two processor cores imitate. */
+const PATIENCE = 150_000;
+
+const QUIET = [
+  "--no-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+
+/** The page in a browser of its own; whatever reaches the browser's console fails the test. */
+export class Page {
+  /** @type {string[]} */
+  #complaints = [];
+
+  /**
+   * @param {import("playwright-core").Page} page
+   * @param {() => Promise<void>} close
+   */
+  constructor(page, close) {
+    this.page = page;
+    this.close = close;
+    page.setDefaultTimeout(PATIENCE);
+    page.on("console", (message) => {
+      if (["error", "warning"].includes(message.type())) this.#complaints.push(message.text());
+    });
+    page.on("pageerror", (error) => this.#complaints.push(String(error)));
+    page.on("requestfailed", (request) => this.#complaints.push(`${request.url()} failed`));
+  }
+
+  /** Opens the built page. @param {{ webgpu: boolean }} options */
+  static async open({ webgpu }) {
+    const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
+    assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
+    const root = fileURLToPath(new URL("../..", import.meta.url));
+    const server = await preview({
+      root,
+      logLevel: "silent",
+      preview: { host: "127.0.0.1", port: 0, strictPort: false },
+    });
+    const args = webgpu ? [...QUIET, "--enable-unsafe-webgpu"] : QUIET;
+    const browser = await chromium.launch({ executablePath, args });
+    const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+    const opened = new Page(page, async () => {
+      await browser.close();
+      await server.close();
+    });
+    await page.goto(server.resolvedUrls?.local[0] ?? "");
+    await opened.ready();
+    return opened;
+  }
+
+  /** Waits until the estimator is loaded. */
+  async ready() {
+    await this.page.waitForSelector('#engine[data-state="ready"]');
+    return await this.page.textContent("#engine-words");
+  }
+
+  /** Chooses a device. @param {"auto" | "gpu" | "cpu"} device */
+  async device(device) {
+    await this.page.check(`input[name="device"][value="${device}"]`, { force: true });
+    return await this.ready();
+  }
+
+  /** Hands files to the page as a user does. @param {import("./files.js").TestFile[]} files */
+  async upload(files) {
+    await this.page.setInputFiles(
+      "#files",
+      files.map(({ name, bytes }) => ({ name, mimeType: "", buffer: Buffer.from(bytes) })),
+    );
+  }
+
+  /** Chooses a file for a setting. @param {"mask" | "lights"} setting @param {import("./files.js").TestFile} file */
+  async choose(setting, { name, bytes }) {
+    const coming = this.page.waitForEvent("filechooser");
+    await this.page.check(`input[name="${setting}"][value="file"]`, { force: true });
+    const chooser = await coming;
+    await chooser.setFiles({ name, mimeType: "", buffer: Buffer.from(bytes) });
+    await this.page.waitForSelector(`#${setting}-name:text-is("${name}")`);
+  }
+
+  /** Waits until as many thumbnails are there. @param {number} count */
+  async thumbnails(count) {
+    await this.page.waitForFunction(
+      (expected) => document.querySelectorAll("#thumbnails [data-state]").length === expected,
+      count,
+    );
+  }
+
+  /** Presses the button and waits for the end; the words of a failure, or nothing. */
+  async estimate() {
+    await this.page.waitForSelector("#start:enabled");
+    await this.page.click("#start");
+    await this.page.waitForSelector("#start:visible");
+    return (await this.page.isVisible("#run-problem")) ? await this.page.textContent("#run-problem") : "";
+  }
+
+  /** Downloads a file of the result. @param {string} name */
+  async download(name) {
+    const coming = this.page.waitForEvent("download");
+    await this.page.click(`#downloads a[download="${name}"]`);
+    const download = await coming;
+    assert.equal(download.suggestedFilename(), name);
+    return await readFile(await download.path());
+  }
+
+  /** Fails when something was wrong that the page did not show, such as a shader that does not compile. */
+  assertQuiet() {
+    assert.deepEqual(this.#complaints, []);
+  }
+}
