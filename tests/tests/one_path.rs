@@ -1,0 +1,57 @@
+//! The golden stack through every native backend: the same lights and normals within 0.1 degree.
+//! The page's tests take the same stack through the browser.
+
+use burn::tensor::Device;
+use normalight_core::{mean_light_error, normal_error};
+use normalight_model::{Estimate, EstimateSettings, Estimator, Quiet, default_weights};
+use normalight_tests::golden_sample;
+
+/// Mean difference that two paths may have, in degrees.
+const TOLERANCE: f32 = 0.1;
+
+fn estimate(device: Device) -> Estimate {
+    let sample = golden_sample();
+    let stack = sample.to_stack().expect("the golden stack is a stack");
+    let [light, normal] = default_weights().expect("the shipped weights are readable");
+    let estimator = Estimator::new(&light, &normal, device).expect("the shipped weights fit");
+    pollster::block_on(estimator.estimate(
+        &stack,
+        &sample.to_mask(),
+        None,
+        EstimateSettings::default(),
+        &mut Quiet,
+    ))
+    .expect("the golden stack can be estimated")
+}
+
+#[test]
+#[expect(
+    deprecated,
+    reason = "the reference is pinned to the last Burn that has it"
+)]
+fn flex_and_ndarray_agree_on_the_golden_stack() {
+    let fast = estimate(Device::flex());
+    let reference = estimate(Device::ndarray());
+    let mask = golden_sample().to_mask();
+    let normals = normal_error(&fast.normals, &reference.normals, &mask).unwrap();
+    let normals = normals.mean.to_degrees();
+    let lights = mean_light_error(&fast.lights, &reference.lights).unwrap();
+    assert!(normals < TOLERANCE, "normals differ by {normals} degrees");
+    assert!(
+        lights.to_degrees() < TOLERANCE,
+        "lights differ by {} degrees",
+        lights.to_degrees()
+    );
+}
+
+#[test]
+fn the_golden_stack_is_understood() {
+    let sample = golden_sample();
+    let found = estimate(Device::flex());
+    let normals = normal_error(&found.normals, &sample.to_normal_map(), &sample.to_mask());
+    let lights = mean_light_error(&found.lights, &sample.lights).unwrap();
+    // Far better than chance (a flat normal map is off by some 40 degrees), with room for other
+    // weights.
+    assert!(normals.unwrap().mean.to_degrees() < 20.0);
+    assert!(lights.to_degrees() < 15.0);
+}
