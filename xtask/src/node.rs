@@ -83,7 +83,7 @@ impl Node {
 
     /// Builds the package and the page, unless the page is newer than all it is made from.
     pub fn build_page(&self, workspace: &Workspace) -> Result<()> {
-        let inputs = ["web", "www", "models", "package.json", "package-lock.json"];
+        let inputs = ["web", "www", "tsconfig.json", "package-lock.json"];
         let inputs = inputs.map(|name| workspace.root.join(name));
         let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
         if !stale(&workspace.root.join("www/dist/index.html"), &inputs)? {

@@ -15,7 +15,7 @@ use crate::workspace::Workspace;
 pub enum Step {
     /// Rust's format.
     Fmt,
-    /// These tasks themselves: lints and tests.
+    /// These tasks themselves: lints, documentation and tests.
     Xtask,
     /// Lints of the native crates.
     Clippy,
@@ -146,6 +146,8 @@ impl Step {
             Self::Xtask => {
                 let lint = ["clippy", "--package", "xtask", "--all-targets", "--"];
                 run::run(workspace.cargo(&lint).args(["-D", "warnings"]))?;
+                let docs = ["doc", "--no-deps", "--package", "xtask"];
+                run::run(workspace.cargo(&docs).env("RUSTDOCFLAGS", "-D warnings"))?;
                 run::run(&mut workspace.cargo(&["test", "--package", "xtask"]))
             }
             Self::Clippy => run::run(&mut native(

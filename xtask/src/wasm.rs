@@ -201,6 +201,8 @@ pub fn bindgen(workspace: &Workspace) -> Result<()> {
         .input_path(&module)
         .out_name("normalight")
         .typescript(true);
+    // The package names the module's address itself, once: bundlers copy the module for each.
+    bindgen.omit_default_module_path(true);
     // Function names are a good part of the module; panics still say their file and line.
     bindgen
         .remove_name_section(true)
