@@ -134,10 +134,7 @@ impl Step {
     fn perform(self, workspace: &Workspace, tools: &Tools) -> Result<()> {
         let native = |before: &[&str], after: &[&str]| {
             let mut command = workspace.cargo(before);
-            command
-                .args(NATIVE)
-                .args(after)
-                .env("NORMALIGHT_CLI", workspace.command_line());
+            command.args(NATIVE).args(after);
             command
         };
         let npm = |arguments: &[&str]| anyhow::Ok(tools.node()?.npm(workspace, arguments));
