@@ -1,3 +1,4 @@
+use glam::Vec3;
 use thiserror::Error;
 
 /// What can be wrong with values that enter this crate.
@@ -109,5 +110,40 @@ pub enum CoreError {
         expected_width: usize,
         /// Height of the first map.
         expected_height: usize,
+    },
+    /// A mesh without triangles.
+    #[error("no triangles found, at least one is needed")]
+    NoTriangles,
+    /// A mesh has more triangles than [`crate::MAX_TRIANGLES`].
+    #[error("{found} triangles, at most {allowed} are taken")]
+    TooManyTriangles {
+        /// Number of triangles.
+        found: usize,
+        /// The limit.
+        allowed: usize,
+    },
+    /// A vertex of a mesh lies nowhere.
+    #[error("vertex {vertex} is at {value}, finite numbers are expected")]
+    MeshPosition {
+        /// Number of the vertex, from 0.
+        vertex: usize,
+        /// Its position.
+        value: Vec3,
+    },
+    /// A triangle of a mesh names a vertex that is not there.
+    #[error("triangle {triangle} names vertex {index}, but there are {vertices} (from 0)")]
+    MeshIndex {
+        /// Number of the triangle, from 0.
+        triangle: usize,
+        /// The vertex that it names.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// No triangle of a mesh has an area.
+    #[error("none of {triangles} triangles has an area, at least one is needed")]
+    FlatMesh {
+        /// Number of triangles.
+        triangles: usize,
     },
 }

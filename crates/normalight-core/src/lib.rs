@@ -9,11 +9,13 @@ mod bins;
 mod error;
 mod light;
 mod mask;
+mod mesh;
 mod metrics;
 mod normal_map;
 mod rect;
 mod refit;
 mod stack;
+mod statistics;
 mod transfer;
 mod woodham;
 
@@ -23,6 +25,7 @@ pub use error::CoreError;
 pub use glam::Vec3;
 pub use light::Light;
 pub use mask::{Mask, MaskSource};
+pub use mesh::{MAX_TRIANGLES, TriangleMesh};
 pub use metrics::{
     NormalError, intensity_error, mean_light_error, normal_error, normal_error_between,
 };
@@ -30,5 +33,6 @@ pub use normal_map::NormalMap;
 pub use rect::Rect;
 pub use refit::{RefitSettings, albedo_map, refit_lights};
 pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage};
+pub use statistics::StackStatistics;
 pub use transfer::Transfer;
 pub use woodham::{least_squares_normals, luminance};

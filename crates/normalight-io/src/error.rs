@@ -157,6 +157,72 @@ pub enum IoError {
         /// What was expected.
         expected: String,
     },
+    /// A file was given that is no mesh by its extension, or a folder without meshes.
+    #[error("{name}: found {found}, expected a mesh ({expected})")]
+    NotAMesh {
+        /// The file or folder.
+        name: String,
+        /// What it is instead.
+        found: String,
+        /// The formats that are read.
+        expected: &'static str,
+    },
+    /// A mesh file is damaged, cut off, or of a variant that is not read.
+    #[error("{name}: {format} mesh with {found}; expected {expected}")]
+    MeshFormat {
+        /// The file.
+        name: String,
+        /// Its format.
+        format: &'static str,
+        /// What it holds.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A binary glTF file keeps its geometry elsewhere.
+    #[error("{name}: its geometry lies in {uri:?}, expected all of it in the file itself")]
+    ExternalBuffer {
+        /// The file.
+        name: String,
+        /// Where the geometry is.
+        uri: String,
+    },
+    /// What a mesh file holds makes no surface.
+    #[error("{name}: {reason}")]
+    Mesh {
+        /// The file.
+        name: String,
+        /// What is wrong with it.
+        reason: CoreError,
+    },
+    /// A line of a set's lists names no object.
+    #[error("{name}, line {line}: found {found:?}, expected {expected}")]
+    SetLine {
+        /// The list.
+        name: String,
+        /// Line number from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A set, or an object of one, is not as expected.
+    #[error("{name}: found {found}, expected {expected}")]
+    SetFormat {
+        /// The file or the object.
+        name: String,
+        /// What there is.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// What shall be written is there already.
+    #[error("{name}: exists already and is kept as it is")]
+    Exists {
+        /// Path of the file or folder.
+        name: String,
+    },
     /// An output cannot be encoded.
     #[error("{name}: cannot be encoded: {reason}")]
     Encode {

@@ -1,4 +1,5 @@
-//! Bytes to words and back: image stacks, masks, light files, DiLiGenT folders, exports.
+//! Bytes to words and back: image stacks, masks, light files, DiLiGenT folders, published
+//! training sets, meshes, exports.
 //!
 //! Everything works on bytes in memory, so the browser uses the same code; the functions that take
 //! paths do not exist there. Bytes from outside never panic and never take memory beyond the limits
@@ -16,6 +17,7 @@ mod light_map;
 mod light_text;
 mod limits;
 mod maps;
+mod mesh;
 mod photographs;
 mod plan;
 mod previews;
@@ -31,12 +33,14 @@ pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
 pub use light_exports::{lights_csv, lights_lp};
 pub use light_file::read_lights;
 pub use light_map::lights_svg;
-pub use limits::{MAX_FILE_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES};
+pub use limits::{MAX_FILE_BYTES, MAX_MESH_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES};
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
+pub use mesh::read_mesh;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{
-    DiligentObject, OutputFolder, list_diligent_objects, read_diligent_object, read_lights_path,
-    read_named, read_paths, write_files,
+    DiligentObject, ObjectToPublish, OutputFolder, PublishedEntry, PublishedObject, PublishedPart,
+    PublishedSet, PublishedSplit, PublishedWriter, list_diligent_objects, mesh_files,
+    read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths, write_files,
 };
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};

@@ -108,13 +108,13 @@ pub(crate) fn is_intensity(value: f32) -> bool {
     value.is_finite() && value > 0.0
 }
 
-fn check_direction(vector: Vec3) -> Option<Vec3> {
+pub(crate) fn check_direction(vector: Vec3) -> Option<Vec3> {
     // In double precision neither tiny nor huge finite vectors lose their direction.
     let unit = vector.as_dvec3().try_normalize()?.as_vec3();
     unit.is_finite().then_some(unit)
 }
 
-fn wrong_line(name: &str, line: usize, found: &str, expected: &str) -> IoError {
+pub(crate) fn wrong_line(name: &str, line: usize, found: &str, expected: &str) -> IoError {
     IoError::LightFormat {
         name: name.to_owned(),
         line,

@@ -14,3 +14,10 @@ pub const MAX_STACK_BYTES: u64 = if usize::BITS > 32 { 32 << 30 } else { 2 << 30
 /// Most bytes that decoding one image may take, output and scratch: the largest image in
 /// floating-point RGBA, and a quarter more.
 pub(crate) const MAX_DECODE_BYTES: u64 = MAX_PIXELS * 20;
+
+/// Largest mesh file that is read: 256 MiB, above the largest text of as many triangles as are
+/// taken.
+pub const MAX_MESH_BYTES: u64 = 256 << 20;
+
+/// Most vertices of one mesh: as many as its triangles can use.
+pub(crate) const MAX_MESH_VERTICES: usize = 3 * normalight_core::MAX_TRIANGLES;

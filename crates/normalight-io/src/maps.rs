@@ -50,18 +50,29 @@ pub fn normals_png(map: &NormalMap, format: NormalFormat) -> Result<Vec<u8>, IoE
 /// # Errors
 /// None that memory can cause; [`IoError::Encode`] keeps the signature honest.
 pub fn normals_npy(map: &NormalMap) -> Result<Vec<u8>, IoError> {
+    let shape = [map.height() as u64, map.width() as u64, 3];
+    let values = map.normals().iter().flat_map(|normal| normal.to_array());
+    npy("normal map", &shape, values)
+}
+
+/// Numbers as NumPy array of float32.
+pub(crate) fn npy(
+    name: &'static str,
+    shape: &[u64],
+    values: impl Iterator<Item = f32>,
+) -> Result<Vec<u8>, IoError> {
     let failed = |error: std::io::Error| IoError::Encode {
-        name: "normal map",
+        name,
         reason: error.to_string(),
     };
-    let mut bytes = Vec::with_capacity(12 * map.normals().len() + 128);
+    let count: u64 = shape.iter().product();
+    let mut bytes = Vec::with_capacity(4 * count as usize + 128);
     let mut writer = npyz::WriteOptions::<f32>::new()
         .default_dtype()
-        .shape(&[map.height() as u64, map.width() as u64, 3])
+        .shape(shape)
         .writer(&mut bytes)
         .begin_nd()
         .map_err(failed)?;
-    let values = map.normals().iter().flat_map(|normal| normal.to_array());
     writer.extend(values).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)

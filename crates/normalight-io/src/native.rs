@@ -3,10 +3,17 @@ mod diligent;
 mod files;
 mod intensities;
 mod matlab;
+mod meshes;
+mod published;
 mod read;
 mod write;
 
 pub use diligent::{DiligentObject, list_diligent_objects, read_diligent_object};
 pub use files::read_named;
+pub use meshes::{mesh_files, read_mesh_file};
+pub use published::{
+    ObjectToPublish, PublishedEntry, PublishedObject, PublishedPart, PublishedSet, PublishedSplit,
+    PublishedWriter,
+};
 pub use read::{read_lights_path, read_paths};
 pub use write::{OutputFolder, write_files};

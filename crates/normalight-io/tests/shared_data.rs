@@ -1,8 +1,8 @@
 //! Against published data that lives outside the project; skipped where it is missing.
 use normalight_core::{MaskSource, least_squares_normals, normal_error};
 use normalight_io::{
-    ReadOptions, StackInput, list_diligent_objects, read_diligent_object, read_lights_path,
-    read_paths,
+    ReadOptions, StackInput, list_diligent_objects, mesh_files, read_diligent_object,
+    read_lights_path, read_mesh_file, read_paths,
 };
 use std::path::PathBuf;
 
@@ -114,4 +114,22 @@ fn counted_light_lists_are_read() {
     let names: Vec<String> = (0..12).map(|k| format!("{k}.tga")).collect();
     let lights = read_lights_path(&uw.join("lights.txt"), &names).unwrap();
     assert!((lights[0].direction.x - 0.403_259).abs() < 1e-4);
+}
+
+#[test]
+fn scanned_meshes_are_read() {
+    let Some(folder) = shared("meshes") else {
+        return;
+    };
+    let files = mesh_files(&folder).unwrap();
+    assert_eq!(files.len(), 14);
+    for file in files {
+        let mesh = read_mesh_file(&file).unwrap();
+        let (low, high) = mesh.bounds();
+        let (vertices, triangles) = (mesh.positions().len(), mesh.triangles().len());
+        println!("{}: {vertices} {triangles} {low} {high}", file.display());
+        assert!(triangles > 500 && (high - low).min_element() > 0.0);
+        let unit = |normal: &normalight_core::Vec3| (normal.length() - 1.0).abs() < 1e-4;
+        assert!(mesh.vertex_normals().iter().all(unit));
+    }
 }

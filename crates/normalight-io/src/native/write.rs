@@ -5,6 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// How names of what is written aside begin: hidden, and of use to nobody.
+const ASIDE: &str = ".normalight-";
+
 /// A folder for results, made and tried out before the work that leads to them.
 ///
 /// Dropped without results, it takes the folders it made away again.
@@ -106,14 +109,19 @@ where
 
 fn new_temporary(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".normalight-");
+    builder.prefix(ASIDE);
     // Temporary files are private by default; results are not, beyond what the umask says.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)
 }
 
-fn write_error(path: &Path, reason: io::Error) -> IoError {
+/// A folder to fill before it takes its place in `folder`; it goes when dropped, with all in it.
+pub(crate) fn new_folder_aside(folder: &Path) -> io::Result<tempfile::TempDir> {
+    tempfile::Builder::new().prefix(ASIDE).tempdir_in(folder)
+}
+
+pub(crate) fn write_error(path: &Path, reason: io::Error) -> IoError {
     IoError::Write {
         name: display(path),
         reason,

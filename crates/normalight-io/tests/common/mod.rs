@@ -1,5 +1,8 @@
 //! Small pictures in every format, made by an independent encoder.
 #![allow(dead_code)]
+pub mod meshes;
+pub mod published;
+
 use image::{DynamicImage, ImageFormat};
 use normalight_io::NamedBytes;
 use std::io::Cursor;
