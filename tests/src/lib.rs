@@ -1,7 +1,7 @@
 //! End-to-end tests of the project: one small stack, rendered by the project, that every path from
 //! photographs to normals must agree on.
 
-use normalight_synth::{Framing, Sample, SceneRecipe, render_sample};
+use normalight_synth::{Framing, Renderer, Sample, SceneRecipe};
 
 /// Photographs in the golden stack.
 pub const GOLDEN_IMAGES: usize = 12;
@@ -14,8 +14,8 @@ const GOLDEN_SEED: u64 = 2718;
 
 /// The golden stack with the truth about it.
 pub fn golden_sample() -> Sample {
-    render_sample(
-        &SceneRecipe::default(),
+    let renderer = Renderer::new(SceneRecipe::default()).expect("the preset needs no files");
+    renderer.sample(
         GOLDEN_SEED,
         GOLDEN_IMAGES,
         GOLDEN_SIZE,

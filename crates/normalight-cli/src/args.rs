@@ -1,5 +1,7 @@
 //! What the commands take; these comments are their help.
-use crate::choices::{ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, NetworkChoice};
+use crate::choices::{
+    BitsChoice, ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, NetworkChoice,
+};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -26,6 +28,10 @@ pub(crate) enum Command {
     Estimate(EstimateArgs),
     /// Train one of the two networks on rendered samples.
     Train(TrainArgs),
+    /// Draw synthetic stacks with known lights and normals.
+    Render(RenderArgs),
+    /// Measure the speed of parts of the program on this machine.
+    Bench(BenchArgs),
     /// Measure the errors on objects whose lights and normals are known.
     Evaluate(EvaluateArgs),
 }
@@ -130,6 +136,108 @@ const TRAIN_EXAMPLES: &str = "\
 Example: train the light network, and continue after a break
   normalight train light --recipe models/recipes/light.toml --out runs/light
   normalight train light --recipe models/recipes/light.toml --out runs/light --resume";
+
+/// Draws synthetic stacks with known lights and normals.
+///
+/// A recipe describes the distribution of shapes, materials, lights and cameras. Stack number k of a
+/// recipe is the same on every machine.
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArgs {
+    /// `world`, `classic`, or a TOML file.
+    ///
+    /// world: as people photograph things. classic: what the published training sets contain. A file
+    /// names a preset and what differs from it.
+    #[arg(long, value_name = "NAME|FILE", default_value = "world")]
+    pub(crate) recipe: String,
+    #[command(flatten)]
+    pub(crate) library: LibraryArgs,
+    /// Number of stacks.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) count: u32,
+    /// Number of the first one.
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub(crate) first: u64,
+    /// Images of a stack.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(3..=1024))]
+    pub(crate) images: u32,
+    /// Side of the images in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 128, value_parser = clap::value_parser!(u32).range(16..=2048))]
+    pub(crate) size: u32,
+    /// Bits of a stored value.
+    #[arg(long, value_enum, default_value = "8")]
+    pub(crate) bits: BitsChoice,
+    /// Folder for the stacks, in the layout of the published Blobby and Sculpture sets; made when
+    /// missing. Every hundredth stack is for validation.
+    #[arg(long, value_name = "DIR", required_unless_present = "stats")]
+    pub(crate) out: Option<PathBuf>,
+    /// Write a contact sheet of normals and photographs as well: sheet.png.
+    #[arg(long, requires = "out")]
+    pub(crate) sheet: bool,
+    /// Print what the stacks look like in numbers.
+    #[arg(long)]
+    pub(crate) stats: bool,
+    /// Print the same for real objects: a folder in DiLiGenT's layout.
+    #[arg(long, value_name = "DIR", requires = "stats")]
+    pub(crate) compare: Option<PathBuf>,
+    /// Show no progress and no summary.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  normalight render --count 1000 --out stacks
+  normalight render --recipe classic --merl merl_nbrdf.npz --count 24 --out look --sheet
+  normalight render --stats --count 200 --compare DiLiGenT/pmsData";
+
+/// Materials and shapes from files of the user's.
+#[derive(Debug, Args)]
+pub(crate) struct LibraryArgs {
+    /// Measured materials: an .npz file of fitted networks with `names` and `W`.
+    ///
+    /// Seven in ten materials then come from it, if the recipe says nothing else.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) merl: Option<PathBuf>,
+    /// A folder of OBJ, PLY and GLB meshes, which become a third of the objects if the recipe says
+    /// nothing else.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) meshes: Option<PathBuf>,
+}
+
+/// Measures speed.
+#[derive(Debug, Args)]
+pub(crate) struct BenchArgs {
+    #[command(subcommand)]
+    pub(crate) what: BenchCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum BenchCommand {
+    /// How fast training samples are drawn, on all cores.
+    ///
+    /// 32x16: crops of 32 x 32 pixels under 16 lights, up to 32 of one scene, each with lights, exposure
+    /// and noise of its own. 128x32: whole scenes of 128 x 128 pixels under 32 lights.
+    Render(BenchRenderArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchRenderArgs {
+    /// `world`, `classic`, or a TOML file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "world")]
+    pub(crate) recipe: String,
+    #[command(flatten)]
+    pub(crate) library: LibraryArgs,
+    /// Seconds for each case, at least.
+    #[arg(long, value_name = "S", default_value_t = 5.0)]
+    pub(crate) seconds: f64,
+    /// Threads; default: one for each core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) threads: Option<u32>,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// Measures the errors of the estimates on a benchmark in DiLiGenT's layout.
 #[derive(Debug, Args)]

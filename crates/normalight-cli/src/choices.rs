@@ -2,6 +2,7 @@
 use clap::ValueEnum;
 use normalight_core::Decoding;
 use normalight_io::{ColorMode, NormalFormat};
+use normalight_synth::BitDepth;
 use normalight_train::Network;
 
 /// Where to compute.
@@ -30,6 +31,17 @@ pub(crate) enum ColorChoice {
     Linear,
     /// As most cameras store pictures for viewing.
     Srgb,
+}
+
+/// Bits of a stored value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BitsChoice {
+    /// As the published sets.
+    #[value(name = "8")]
+    Eight,
+    /// For recipes with cameras of more than 8 bits.
+    #[value(name = "16")]
+    Sixteen,
 }
 
 /// Which way green points in normals.png.
@@ -102,4 +114,13 @@ pub(crate) fn word(choice: impl ValueEnum) -> String {
         .to_possible_value()
         .map(|value| value.get_name().to_owned())
         .unwrap_or_default()
+}
+
+impl From<BitsChoice> for BitDepth {
+    fn from(choice: BitsChoice) -> Self {
+        match choice {
+            BitsChoice::Eight => Self::Eight,
+            BitsChoice::Sixteen => Self::Sixteen,
+        }
+    }
 }

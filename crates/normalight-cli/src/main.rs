@@ -1,6 +1,7 @@
-//! The command `normalight`: photographs in, lights and normals out; training and evaluation.
+//! The command `normalight`: photographs in, lights and normals out; rendering, training, evaluation.
 
 mod args;
+mod bench;
 mod choices;
 mod device;
 mod estimate;
@@ -8,6 +9,8 @@ mod evaluate;
 mod interrupt;
 mod outputs;
 mod progress;
+mod render;
+mod scenes;
 mod settings;
 mod table;
 mod terminal;
@@ -38,6 +41,8 @@ fn main() -> ExitCode {
         Command::Estimate(args) => estimate::run(args),
         Command::Train(args) => train::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Render(args) => render::run(args),
+        Command::Bench(args) => bench::run(args),
     });
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -150,12 +150,14 @@ fn given_lights_are_used_as_they_are() {
     let report = read_json(&out.join("report.json"));
     assert_eq!(report["lights_from"], path(&file));
     assert!(report["weights"]["light"].is_null());
-    // What came out can be put in again.
+    // What came out can be put in again; directions are made unit vectors once more, which may change
+    // their last digit.
     let again = place.path().join("again");
     let csv = out.join("lights.csv");
     said(estimate(&photographs, &again, &["--lights", path(&csv)]));
     let [one, two] = [&out, &again].map(|folder| read_npy(&folder.join("normals.npy")));
-    assert_eq!(one, two);
+    let pairs = one.iter().flatten().zip(two.iter().flatten());
+    assert!(pairs.fold(0.0f32, |most, (a, b)| most.max((a - b).abs())) < 1e-4);
 }
 
 #[test]

@@ -124,13 +124,14 @@ fn figures_are_those_of_the_files() {
         .map(|(light, truth)| degrees(light.direction, truth.direction.to_array()))
         .collect();
     close(&egg["light_degrees"], mean(&angles), 1e-3);
-    let first = f64::from(truth.lights[0].intensity[0]);
+    // The estimate is grey, the truth has colours: all channels count.
     let values: Vec<(f64, f64)> = pairs()
-        .map(|(light, truth)| {
-            (
-                light.intensity.into(),
-                f64::from(truth.intensity[0]) / first,
-            )
+        .flat_map(|(light, truth_of)| {
+            let first = truth.lights[0].intensity;
+            (0..3).map(move |channel| {
+                let relative = f64::from(truth_of.intensity[channel]) / f64::from(first[channel]);
+                (light.intensity.into(), relative)
+            })
         })
         .collect();
     let scale = values.iter().map(|(p, g)| p * g).sum::<f64>()

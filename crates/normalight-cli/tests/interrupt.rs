@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use normalight_synth::{Framing, SceneRecipe, render_sample};
+use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -34,7 +34,8 @@ fn interrupt_when(mut child: Child, begun: impl Fn() -> bool) -> Output {
 fn an_interrupted_estimate_leaves_all_as_it_was() {
     let place = tempfile::tempdir().unwrap();
     let (photographs, out) = (place.path().join("vase"), place.path().join("out"));
-    let sample = render_sample(&SceneRecipe::default(), 7, 24, 160, Framing::WholeObject);
+    let renderer = Renderer::new(SceneRecipe::default()).unwrap();
+    let sample = renderer.sample(7, 24, 160, Framing::WholeObject);
     write_stack(&photographs, &sample);
     let arguments = [
         "estimate",

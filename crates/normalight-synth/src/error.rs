@@ -1,7 +1,9 @@
+use std::io;
+use std::path::PathBuf;
 use thiserror::Error;
 
-/// What can be wrong with a recipe.
-#[derive(Debug, Clone, PartialEq, Error)]
+/// What can be wrong with a recipe and the files it names.
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SynthError {
     /// A number lies outside what its field can mean.
@@ -20,4 +22,33 @@ pub enum SynthError {
         /// Where in the recipe, such as `shapes`.
         field: &'static str,
     },
+    /// A recipe is not what a recipe looks like.
+    #[error("{}: {message}", file.display())]
+    Recipe {
+        /// The recipe.
+        file: PathBuf,
+        /// Place and kind of the mistake.
+        message: String,
+    },
+    /// A file could not be read.
+    #[error("{}: {source}", file.display())]
+    File {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file of measured materials has other contents than expected.
+    #[error("{}: {found} found, {expected} expected", file.display())]
+    Measured {
+        /// The file.
+        file: PathBuf,
+        /// What is there.
+        found: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A mesh could not be read.
+    #[error(transparent)]
+    Mesh(#[from] normalight_io::IoError),
 }

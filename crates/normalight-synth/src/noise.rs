@@ -66,7 +66,7 @@ fn floor(value: f32) -> i32 {
     whole - i32::from(value < whole as f32)
 }
 
-/// Normal deviates (mean 0, deviation 1) to read from any place, wrapped around.
+/// Normal deviates (mean 0, deviation 1) to read from any place.
 pub(crate) struct Deviates(Vec<f32>);
 
 impl Deviates {
@@ -78,8 +78,11 @@ impl Deviates {
         })
     }
 
-    #[inline]
-    pub(crate) fn at(&self, index: usize) -> f32 {
-        self.0[index & (BANK - 1)]
+    /// Deviates in the bank.
+    pub(crate) const COUNT: usize = BANK;
+
+    /// All from `start` on to the end of the bank.
+    pub(crate) fn from(&self, start: usize) -> &[f32] {
+        &self.0[start & (BANK - 1)..]
     }
 }

@@ -11,6 +11,7 @@ pub(crate) enum Stream {
     Lights,
     Framing,
     Camera,
+    Crop,
 }
 
 /// Random numbers that are the same on every machine.

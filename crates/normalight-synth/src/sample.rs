@@ -21,8 +21,12 @@ pub struct Sample {
     ///
     /// `[size, size]`
     pub normals: Vec<Vec3>,
-    /// One grey light per image. Intensities are those of the scene: the camera's exposure scales
-    /// all images by one more factor.
+    /// z in pixels, rising towards the camera from an arbitrary zero; NaN outside the mask.
+    ///
+    /// `[size, size]`
+    pub depth: Vec<f32>,
+    /// One light per image; directions from the object's middle. Intensities are those of the scene: the
+    /// camera's exposure scales all images by one more factor.
     pub lights: Vec<Light>,
 }
 
@@ -36,6 +40,19 @@ pub enum BitDepth {
 }
 
 impl Sample {
+    /// Black images of nothing.
+    pub(crate) fn empty(size: usize, images: usize) -> Self {
+        let area = size * size;
+        Self {
+            size,
+            images: vec![0.0; images * 3 * area],
+            mask: vec![false; area],
+            normals: vec![Vec3::ZERO; area],
+            depth: vec![f32::NAN; area],
+            lights: Vec::new(),
+        }
+    }
+
     /// The photographs as a stack of floating-point images named `001.png` and so on.
     ///
     /// # Errors

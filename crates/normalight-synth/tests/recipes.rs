@@ -1,44 +1,71 @@
-//! Recipes from text: what is accepted, and what is said about the rest.
+//! Recipes as text.
 
-use normalight_synth::{SceneRecipe, SynthError};
+use normalight_synth::{Preset, Renderer, SceneRecipe, SynthError};
+use std::path::Path;
 
 fn parsed(text: &str) -> SceneRecipe {
-    toml::from_str(text).unwrap()
+    SceneRecipe::from_toml(Path::new("recipe.toml"), text).unwrap()
+}
+
+fn message(text: &str) -> String {
+    let recipe = SceneRecipe::from_toml(Path::new("recipe.toml"), text);
+    recipe
+        .and_then(Renderer::new)
+        .map(|_| ())
+        .unwrap_err()
+        .to_string()
 }
 
 #[test]
-fn defaults_are_valid_and_survive_toml() {
-    let recipe = SceneRecipe::default();
-    recipe.validate().unwrap();
-    assert_eq!(parsed(""), recipe);
-    assert_eq!(parsed(&toml::to_string(&recipe).unwrap()), recipe);
+fn presets_are_sound_and_survive_writing() {
+    for preset in [Preset::World, Preset::Classic] {
+        let recipe = preset.recipe();
+        assert!(recipe.validate().is_ok());
+        let text = toml::to_string(&recipe).unwrap();
+        assert_eq!(parsed(&text), recipe);
+    }
 }
 
 #[test]
-fn one_key_changes_one_field() {
-    let recipe = parsed("[lights]\ncap_degrees = [30.0, 50.0]\n");
-    let mut expected = SceneRecipe::default();
-    expected.lights.cap_degrees = [30.0, 50.0];
-    assert_eq!(recipe, expected);
+fn what_a_file_leaves_out_comes_from_its_preset() {
+    assert_eq!(parsed(""), Preset::World.recipe());
+    let recipe = parsed("preset = \"classic\"\n[lights]\ncap_degrees = [30.0, 40.0]\n");
+    assert_eq!(recipe.lights.cap_degrees, [30.0, 40.0]);
+    assert_eq!(recipe.lights.ring, 0.0);
+    assert_eq!(recipe.materials, Preset::Classic.recipe().materials);
+    // Whole numbers are numbers, too.
+    assert_eq!(parsed("[shapes]\nplate = 1\n").shapes.plate, 1.0);
 }
 
 #[test]
-fn unknown_keys_are_named() {
-    let error = toml::from_str::<SceneRecipe>("[lights]\ncap_degree = 3.0\n").unwrap_err();
-    assert!(error.to_string().contains("cap_degree"), "{error}");
-    assert!(toml::from_str::<SceneRecipe>("[light]\n").is_err());
+fn paths_start_at_the_recipe() {
+    let text = "[materials]\nmeasured_file = \"merl.npz\"\n";
+    let recipe = SceneRecipe::from_toml(Path::new("some/where/recipe.toml"), text).unwrap();
+    let expected = Path::new("some/where/merl.npz");
+    assert_eq!(recipe.materials.measured_file.unwrap(), expected);
 }
 
 #[test]
-fn errors_name_field_found_and_expected() {
-    let message = |text: &str| parsed(text).validate().unwrap_err().to_string();
+fn unknown_keys_and_presets_are_named() {
+    for (text, expected) in [
+        ("[lights]\nazimuth = 3.0\n", "unknown field `azimuth`"),
+        ("lamps = 3\n", "unknown field `lamps`"),
+        ("preset = \"moon\"\n", "unknown variant `moon`"),
+        ("[lights\n", "recipe.toml: "),
+        ("[lights]\nring = \"yes\"\n", "invalid type"),
+    ] {
+        let found = message(text);
+        assert!(found.contains(expected), "{found}");
+        assert!(found.starts_with("recipe.toml: "), "{found}");
+    }
+}
+
+#[test]
+fn numbers_out_of_range_say_what_is_expected() {
     assert_eq!(
-        message("[materials]\nmetal_share = 1.5\n"),
-        "materials.metal_share: 1.5 found, 0..=1 expected"
-    );
-    assert_eq!(
-        message("[materials]\nalbedo = [0.9, 0.1]\n"),
-        "materials.albedo: [0.9, 0.1] found, [low, high] with 0 <= low <= high <= 1 expected"
+        message("[lights]\ncap_degrees = [50.0, 40.0]\n"),
+        "lights.cap_degrees: [50, 40] found, [low, high] with 1 <= low <= high <= 85 degrees \
+         expected"
     );
     assert_eq!(
         message("[shapes]\nmax_tilt_degrees = nan\n"),
@@ -52,13 +79,49 @@ fn errors_name_field_found_and_expected() {
         message("[camera]\nmean = [0.0, 0.5]\n"),
         "camera.mean: [0, 0.5] found, [low, high] with 0.001 <= low <= high <= 1 expected"
     );
+    assert_eq!(
+        message("[sampling]\ncrops_per_scene = 33\n"),
+        "sampling.crops_per_scene: 33 found, 1..=32 expected"
+    );
+    let shares = "[camera]\nlinear_8_bit_share = 0.9\nsrgb_8_bit_share = 0.9\n";
+    assert!(message(shares).contains("at most 1 expected"));
 }
 
 #[test]
 fn a_choice_needs_a_positive_weight() {
-    let recipe = parsed("[lights]\nrectangle = 0.0\ncap = 0.0\nring = 0.0\n");
-    assert_eq!(
-        recipe.validate(),
-        Err(SynthError::NoWeight { field: "lights" })
+    let text = "[lights]\nrectangle = 0.0\ncap = 0.0\nring = 0.0\ndome = 0.0\npath = 0.0\n";
+    let error = parsed(text).validate().unwrap_err();
+    assert!(matches!(error, SynthError::NoWeight { field: "lights" }));
+}
+
+#[test]
+fn files_that_are_needed_must_be_named_and_there() {
+    assert!(
+        message("[materials]\nmeasured_share = 0.5\n")
+            .starts_with("materials.measured_file: nothing")
     );
+    assert!(message("[shapes]\nmesh = 0.5\n").starts_with("shapes.mesh_folder: nothing"));
+    let text = "[materials]\nmeasured_share = 0.5\nmeasured_file = \"none.npz\"\n";
+    assert!(message(text).contains("none.npz"));
+    let text = "[shapes]\nmesh = 0.5\nmesh_folder = \"no-meshes\"\n";
+    assert!(message(text).contains("no-meshes"));
+}
+
+#[test]
+fn broken_meshes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [
+        ("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
+        ("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        let mut recipe = Preset::World.recipe();
+        recipe.shapes.mesh = 1.0;
+        recipe.shapes.mesh_folder = Some(folder.path().to_owned());
+        let error = Renderer::new(recipe).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains(name), "{error}");
+        std::fs::remove_file(path).unwrap();
+    }
 }

@@ -2,9 +2,20 @@
 
 use normalight_core::{Samples, angle_between, least_squares_normals, normal_error};
 use normalight_synth::{
-    BitDepth, CameraRecipe, Framing, LightRecipe, MaterialRecipe, Sample, SceneRecipe, ShapeRecipe,
-    TransportRecipe, render_sample,
+    BitDepth, CameraRecipe, Framing, LightRecipe, MaterialRecipe, Renderer, Sample, SceneRecipe,
+    ShapeRecipe, TransportRecipe,
 };
+
+fn render_sample(
+    recipe: &SceneRecipe,
+    number: u64,
+    images: usize,
+    size: usize,
+    framing: Framing,
+) -> Sample {
+    let renderer = Renderer::new(recipe.clone()).unwrap();
+    renderer.sample(number, images, size, framing)
+}
 
 /// White matte spheres, an exact camera, direct light only.
 fn plain_recipe() -> SceneRecipe {
@@ -15,7 +26,9 @@ fn plain_recipe() -> SceneRecipe {
             blob: 0.0,
             lathe: 0.0,
             statue: 0.0,
+            plate: 0.0,
             relief_share: 0.0,
+            perspective_share: 0.0,
             ..ShapeRecipe::default()
         },
         materials: MaterialRecipe {
@@ -27,7 +40,11 @@ fn plain_recipe() -> SceneRecipe {
             textured_share: 0.0,
             ..MaterialRecipe::default()
         },
-        lights: LightRecipe::default(),
+        lights: LightRecipe {
+            near_share: 0.0,
+            colour_share: 0.0,
+            ..LightRecipe::default()
+        },
         transport: TransportRecipe {
             cast_shadow_share: 0.0,
             bounce_share: 0.0,
@@ -40,7 +57,12 @@ fn plain_recipe() -> SceneRecipe {
             linear_8_bit_share: 0.0,
             srgb_8_bit_share: 0.0,
             mean: [0.05, 0.2],
+            jpeg_share: 0.0,
+            shift_share: 0.0,
+            blur_share: 0.0,
+            ..CameraRecipe::default()
         },
+        ..SceneRecipe::default()
     }
 }
 
@@ -127,10 +149,13 @@ fn woodham_recovers_matte_normals_from_the_exported_stack() {
         lights: LightRecipe {
             // All lights within 20 degrees of the axis: hardly any attached shadow.
             rectangle: 0.0,
+            cap: 1.0,
             ring: 0.0,
+            dome: 0.0,
+            path: 0.0,
             cap_degrees: [20.0, 20.0],
             shift_share: 0.0,
-            ..LightRecipe::default()
+            ..plain_recipe().lights
         },
         ..plain_recipe()
     };

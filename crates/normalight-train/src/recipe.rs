@@ -148,7 +148,7 @@ mod defaults {
 }
 
 impl TrainRecipe {
-    /// Reads and checks a recipe file.
+    /// Reads and checks a recipe file; paths in it start at its folder.
     ///
     /// # Errors
     /// [`TrainError::File`], [`TrainError::Recipe`] or [`TrainError::Value`].
@@ -157,7 +157,11 @@ impl TrainRecipe {
             path: path.to_owned(),
             source,
         })?;
-        Self::parse(&path.display().to_string(), &text)
+        let mut recipe = Self::parse(&path.display().to_string(), &text)?;
+        recipe
+            .scene
+            .resolve_paths(path.parent().unwrap_or(Path::new("")));
+        Ok(recipe)
     }
 
     /// Parses and checks a recipe.

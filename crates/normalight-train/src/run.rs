@@ -72,6 +72,8 @@ fn train_task<T: Task>(
     mut observe: impl FnMut(StepReport) -> ControlFlow<()>,
 ) -> Result<f32, TrainError> {
     let recipe = &run.recipe;
+    // Before anything is written: a file that the recipe names may be missing.
+    let renderer = loader::renderer(recipe)?;
     std::fs::create_dir_all(&run.folder).map_err(|source| TrainError::File {
         path: run.folder.clone(),
         source,
@@ -96,8 +98,8 @@ fn train_task<T: Task>(
         Network::Light => recipe.size,
         Network::Normal => VALIDATION_PIXELS,
     };
-    let objects = loader::validation_objects(recipe, pixels);
-    let batches = loader::start::<T>(recipe, standing.step);
+    let objects = loader::validation_objects(recipe, &renderer, pixels);
+    let batches = loader::start::<T>(recipe, &renderer, standing.step);
     let mut recent = Vec::new();
     let mut seconds = points.last().map_or(0.0, |point| point.seconds);
     while standing.step < recipe.steps {

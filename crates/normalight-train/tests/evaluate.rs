@@ -6,7 +6,7 @@ use normalight_model::{
     EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NormalArchitecture,
     NormalNetwork, Observer, Progress, Quiet, Weights,
 };
-use normalight_synth::{Framing, SceneRecipe, render_sample};
+use normalight_synth::{Framing, Renderer, SceneRecipe};
 use normalight_train::{BenchmarkObject, LightsFrom, TrainError, evaluate_object};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -26,7 +26,8 @@ fn estimator() -> Estimator {
 }
 
 fn object() -> BenchmarkObject {
-    let sample = render_sample(&SceneRecipe::default(), 5, 4, 32, Framing::WholeObject);
+    let renderer = Renderer::new(SceneRecipe::default()).unwrap();
+    let sample = renderer.sample(5, 4, 32, Framing::WholeObject);
     BenchmarkObject {
         name: "egg".to_owned(),
         stack: sample.to_stack().unwrap(),

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, Rgb};
 use normalight_core::Samples;
-use normalight_synth::{BitDepth, Framing, Sample, SceneRecipe, render_sample};
+use normalight_synth::{BitDepth, Framing, Renderer, Sample, SceneRecipe};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -79,13 +79,8 @@ pub fn files(folder: &Path) -> Vec<String> {
 }
 
 pub fn sample() -> Sample {
-    render_sample(
-        &SceneRecipe::default(),
-        7,
-        IMAGES,
-        SIZE,
-        Framing::WholeObject,
-    )
+    let renderer = Renderer::new(SceneRecipe::default()).unwrap();
+    renderer.sample(7, IMAGES, SIZE, Framing::WholeObject)
 }
 
 /// Writes the photographs as 16-bit PNG, and the mask.

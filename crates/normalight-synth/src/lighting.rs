@@ -1,0 +1,9 @@
+//! Lamps, the shadows they throw, and the light that surfaces pass on.
+mod bounce;
+mod lamp;
+mod layouts;
+mod shadow;
+
+pub(crate) use bounce::Bounces;
+pub(crate) use lamp::{Lamp, lamps, tinted};
+pub(crate) use shadow::Shadows;

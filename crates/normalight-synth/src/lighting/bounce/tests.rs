@@ -1,0 +1,140 @@
+use super::*;
+use crate::materials::Surfaces;
+use crate::materials::surface_for_tests as matte;
+use crate::shapes::Window;
+
+/// One bounce from every point to every other one that it sees, pixel by pixel.
+fn brute_force(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) -> Vec<f32> {
+    let window = view.window;
+    let visible = |a: Vec3, b: Vec3| {
+        // Along the straight line nothing may stand in front.
+        let steps = ((b - a).truncate().length() / (0.5 * window.pitch)) as usize;
+        (1..steps).all(|step| {
+            let place = a.lerp(b, step as f32 / steps as f32);
+            let column = ((place.x - window.left) / window.pitch) as usize;
+            let row = ((window.top - place.y) / window.pitch) as usize;
+            view.depth[row * window.width + column] < place.z + 1.5 * window.pitch
+        })
+    };
+    (0..points.count())
+        .map(|to| {
+            let (place, normal) = (points.places[to], points.normals[to]);
+            let mut sum = 0.0f64;
+            for from in 0..points.count() {
+                let between = points.places[from] - place;
+                let (out, back) = (between.dot(normal), -between.dot(points.normals[from]));
+                if out <= 0.0 || back <= 0.0 || !visible(place, points.places[from]) {
+                    continue;
+                }
+                let area = window.pitch * window.pitch / points.normals[from].z;
+                let square = between.length_squared();
+                let exchange = out * back * area / (square * (PI * square + area));
+                sum += f64::from(exchange * albedo * irradiance[from]);
+            }
+            albedo * sum as f32
+        })
+        .collect()
+}
+
+fn bounced(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) -> Vec<f32> {
+    let surfaces = Surfaces::from_iter(
+        std::iter::repeat_n(matte(albedo), points.count()),
+        &points.normals,
+        &[],
+    );
+    let mut irradiance = irradiance.to_vec();
+    irradiance.resize(points.normal[0].len(), 0.0);
+    let mut radiance = [std::array::from_fn(|_| vec![0.0; irradiance.len()])];
+    Bounces::new(view, points).add(points, &surfaces, &[irradiance], &mut radiance);
+    radiance[0][0][..points.count()].to_vec()
+}
+
+/// A bowl: the inside of a sphere of radius 1, cut where its wall is as steep as `least` (normal's z).
+fn bowl(side: usize, least: f32) -> View {
+    let window = Window {
+        left: -1.0,
+        top: 1.0,
+        pitch: 2.0 / side as f32,
+        width: side,
+        height: side,
+        inverse_distance: 0.0,
+    };
+    let mut depth = vec![f32::NEG_INFINITY; side * side];
+    let mut normals = vec![Vec3::ZERO; side * side];
+    for pixel in 0..side * side {
+        let (x, y) = (window.x(pixel % side), window.y(pixel / side));
+        let height = (1.0 - x * x - y * y).max(0.0).sqrt();
+        if height > least {
+            depth[pixel] = -height;
+            normals[pixel] = Vec3::new(-x, -y, height);
+        }
+    }
+    View::from_planes(window, depth, vec![-1.2; side * side], normals)
+}
+
+/// Inside a sphere every point sees every other one equally well: the form factor of a piece is its
+/// share of the sphere's surface, so evenly lit pieces send `albedo * irradiance * area / (4 pi)`.
+#[test]
+fn a_bowl_gets_what_its_share_of_the_sphere_sends() {
+    let least = 0.3;
+    let view = bowl(96, least);
+    let points = Points::new(&view);
+    let albedo = 0.8;
+    let light = bounced(&view, &points, albedo, &vec![1.0; points.count()]);
+    let area = 2.0 * PI * (1.0 - least);
+    let expected = albedo * albedo * area / (4.0 * PI);
+    let mean = light.iter().sum::<f32>() / light.len() as f32;
+    // Near neighbours are taken for less than they give, to stay finite.
+    println!("{:.1} % of the closed form", 100.0 * mean / expected);
+    assert!(
+        (mean / expected - 1.0).abs() < 0.12,
+        "{mean} against {expected}"
+    );
+}
+
+#[test]
+fn patches_come_near_the_brute_force() {
+    let side = 32;
+    let window = Window {
+        left: -1.0,
+        top: 1.0,
+        pitch: 2.0 / side as f32,
+        width: side,
+        height: side,
+        inverse_distance: 0.0,
+    };
+    // A valley whose walls face each other, and a bumpy ground.
+    let valley = |x: f32, _: f32| x.abs();
+    let bumps = |x: f32, y: f32| 0.25 * (5.0 * x).sin() * (4.0 * y).cos();
+    let scenes: [(&str, Box<dyn Fn(f32, f32) -> f32>); 2] =
+        [("valley", Box::new(valley)), ("bumps", Box::new(bumps))];
+    for (name, height) in scenes {
+        let (mut depth, mut normals) = (Vec::new(), Vec::new());
+        for pixel in 0..side * side {
+            let (x, y) = (window.x(pixel % side), window.y(pixel / side));
+            let h = 1e-3;
+            let slope_x = (height(x + h, y) - height(x - h, y)) / (2.0 * h);
+            let slope_y = (height(x, y + h) - height(x, y - h)) / (2.0 * h);
+            depth.push(height(x, y));
+            normals.push(Vec3::new(-slope_x, -slope_y, 1.0).normalize());
+        }
+        let view = View::from_planes(window, depth, vec![-1.0; side * side], normals);
+        let points = Points::new(&view);
+        let lamp = Vec3::new(0.5, 0.2, 0.8).normalize();
+        let irradiance: Vec<f32> = points
+            .normals
+            .iter()
+            .map(|n| n.dot(lamp).max(0.0))
+            .collect();
+        let truth = brute_force(&view, &points, 0.8, &irradiance);
+        let light = bounced(&view, &points, 0.8, &irradiance);
+        let total: f32 = truth.iter().sum();
+        let off: f32 = truth.iter().zip(&light).map(|(a, b)| (a - b).abs()).sum();
+        println!(
+            "{name}: {:.1} % off, sum {:.1} %",
+            100.0 * off / total,
+            100.0 * light.iter().sum::<f32>() / total
+        );
+        assert!(off < 0.35 * total, "{name}: {off} of {total}");
+    }
+}

@@ -1,0 +1,19 @@
+//! What things are made of and how it shines.
+mod brdf;
+mod measured;
+mod paint;
+mod pattern;
+mod surfaces;
+
+pub(crate) use brdf::shade;
+pub(crate) use measured::Measured;
+pub(crate) use paint::Paint;
+pub(crate) use surfaces::Surfaces;
+
+#[cfg(test)]
+pub(crate) fn surface_for_tests(albedo: f32) -> surfaces::Surface {
+    surfaces::Surface {
+        albedo: glam::Vec3::splat(albedo),
+        ..surfaces::Surface::default()
+    }
+}

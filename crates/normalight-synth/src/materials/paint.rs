@@ -1,0 +1,201 @@
+use super::measured::Measured;
+use super::pattern::{Pattern, smooth_step};
+use super::surfaces::{MAX_SUBSTANCES, Surface};
+use crate::noise::Lattice;
+use crate::random::Random;
+use crate::recipe::MaterialRecipe;
+use glam::{Mat3, Vec3};
+
+/// A paint: one substance, or several that meet along a noisy border.
+#[derive(Debug, Clone)]
+pub(crate) struct Paint {
+    first: Substance,
+    others: Vec<(Substance, Border)>,
+    /// The measured ones among the substances, as [`Surface::measured`] numbers them.
+    measured: Vec<Measured>,
+}
+
+/// A substance with its patterns.
+#[derive(Debug, Clone)]
+struct Substance {
+    surface: Surface,
+    /// Number of the measured substance, if it is one.
+    measured: Option<usize>,
+    /// A pattern and the colour at its other end, relative to the first for measured substances.
+    coloured: Option<(Pattern, Vec3)>,
+    /// A pattern and the factor of the highlight's width at its other end.
+    roughened: Option<(Pattern, f32)>,
+}
+
+/// Where another substance lies over the first.
+#[derive(Debug, Clone)]
+struct Border {
+    to_noise: Mat3,
+    offset: Vec3,
+    threshold: f32,
+    softness: f32,
+}
+
+impl Paint {
+    /// Draws a paint; `library` holds the measured materials to choose from.
+    pub(crate) fn draw(recipe: &MaterialRecipe, library: &[Measured], random: &mut Random) -> Self {
+        let mut measured = Vec::new();
+        let first = Substance::draw(recipe, library, &mut measured, random);
+        let mut others = Vec::new();
+        if random.chance(recipe.mixed_share) {
+            for _ in 0..random.count(1, MAX_SUBSTANCES - 1) {
+                let border = Border {
+                    to_noise: random.rotation() * random.log_range(0.8, 8.0),
+                    offset: random.vector(16.0),
+                    threshold: random.signed(0.35),
+                    softness: random.log_range(0.01, 1.0),
+                };
+                let other = Substance::draw(recipe, library, &mut measured, random);
+                others.push((other, border));
+            }
+        }
+        Self {
+            first,
+            others,
+            measured,
+        }
+    }
+
+    pub(crate) fn measured(&self) -> &[Measured] {
+        &self.measured
+    }
+
+    /// What the object is made of at a point of its surface.
+    pub(crate) fn at(&self, lattice: &Lattice, point: Vec3) -> Surface {
+        let mut surface = self.first.at(lattice, point);
+        for (substance, border) in &self.others {
+            let noise = lattice.at(border.to_noise * point + border.offset);
+            let share = smooth_step((noise - border.threshold) / border.softness + 0.5);
+            if share > 0.0 {
+                surface = surface.mixed(&substance.at(lattice, point), share);
+            }
+        }
+        surface
+    }
+}
+
+impl Substance {
+    fn draw(
+        recipe: &MaterialRecipe,
+        library: &[Measured],
+        measured: &mut Vec<Measured>,
+        random: &mut Random,
+    ) -> Self {
+        let number = (!library.is_empty() && random.chance(recipe.measured_share)).then(|| {
+            measured.push(library[random.below(library.len())].clone());
+            measured.len() - 1
+        });
+        let mut surface = match number {
+            Some(_) => Surface::default(),
+            None => modelled(recipe, random),
+        };
+        surface.axis = random.direction();
+        let coloured = random.chance(recipe.textured_share).then(|| {
+            let pattern = Pattern::draw(random);
+            (pattern, colour(recipe, random))
+        });
+        if let Some(number) = number {
+            surface.measured[number] = Vec3::ONE;
+        }
+        let roughened = random.chance(recipe.rough_texture_share).then(|| {
+            let factor = random.log_range(0.3, 3.0);
+            (Pattern::draw(random), factor)
+        });
+        Self {
+            surface,
+            measured: number,
+            coloured,
+            roughened,
+        }
+    }
+
+    fn at(&self, lattice: &Lattice, point: Vec3) -> Surface {
+        let mut surface = self.surface;
+        if let Some((pattern, colour)) = &self.coloured {
+            let share = pattern.at(lattice, point);
+            match self.measured {
+                Some(number) => surface.measured[number] = Vec3::ONE.lerp(*colour, share),
+                None => surface.albedo = surface.albedo.lerp(*colour, share),
+            }
+        }
+        if let Some((pattern, factor)) = &self.roughened {
+            let factor = 1.0 + (factor - 1.0) * pattern.at(lattice, point);
+            surface.alphas = surface
+                .alphas
+                .map(|alpha| (alpha * factor).clamp(0.02, 1.0));
+            surface.wide_alpha = (surface.wide_alpha * factor).clamp(0.02, 1.0);
+        }
+        surface
+    }
+}
+
+/// A substance of diffuse light and highlights by formula.
+fn modelled(recipe: &MaterialRecipe, random: &mut Random) -> Surface {
+    let alpha = rough(recipe, random);
+    let mut surface = Surface {
+        alphas: [alpha; 2],
+        wide_alpha: 1.0,
+        ..Surface::default()
+    };
+    if random.chance(recipe.metal_share) {
+        surface.f0 = metal_colour(random);
+        surface.albedo = colour(recipe, random) * random.range(0.0, 0.2);
+        surface.weights[0] = 1.0;
+    } else {
+        surface.albedo = colour(recipe, random);
+        if !random.chance(recipe.matte_share) {
+            let [low, high] = recipe.dielectric_f0;
+            surface.f0 = Vec3::splat(random.range(low, high));
+            surface.weights[0] = random.log_range(0.5, 2.5);
+        }
+    }
+    if surface.weights[0] > 0.0 && random.chance(recipe.brushed_share) {
+        let stretch = random.log_range(1.3, 5.0);
+        surface.alphas = [(alpha * stretch).min(1.0), (alpha / stretch).max(0.02)];
+    }
+    if surface.weights[0] > 0.0 && random.chance(0.4) {
+        // Measured highlights have long tails: a second, wider one under the first.
+        let share = random.range(0.2, 0.7);
+        let wider = alpha * random.range(1.5, 4.0);
+        surface.wide_alpha = wider.min(1.0);
+        surface.weights[1] = surface.weights[0] * share;
+        surface.weights[0] *= 1.0 - share;
+    }
+    if random.chance(recipe.rough_diffuse_share) {
+        surface.facet_variance = random.range(0.02, 0.5);
+    }
+    if random.chance(recipe.sheen_share) {
+        surface.sheen = random.range(0.05, 0.5) * surface.albedo.max_element();
+    }
+    surface
+}
+
+fn rough(recipe: &MaterialRecipe, random: &mut Random) -> f32 {
+    random.log_range(recipe.roughness[0], recipe.roughness[1])
+}
+
+/// Any brightness, from grey to strongly coloured.
+fn colour(recipe: &MaterialRecipe, random: &mut Random) -> Vec3 {
+    let [low, high] = recipe.albedo;
+    let brightness = if random.chance(0.5) {
+        random.range(low, high)
+    } else {
+        random.log_range(low, high)
+    };
+    let strength = random.unit() * random.unit();
+    let tint = Vec3::ONE + random.vector(1.0) * strength;
+    (tint * brightness).clamp(Vec3::splat(low), Vec3::splat(high))
+}
+
+/// Grey steel to reddish copper and yellow gold, roughly.
+fn metal_colour(random: &mut Random) -> Vec3 {
+    let red = random.range(0.5, 0.97);
+    let warmth = random.unit() * random.unit();
+    let green = red * (1.0 - 0.4 * warmth * random.unit());
+    Vec3::new(red, green, green * (1.0 - 0.6 * warmth))
+}

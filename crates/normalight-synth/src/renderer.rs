@@ -1,0 +1,102 @@
+use crate::SynthError;
+use crate::materials::Measured;
+use crate::recipe::SceneRecipe;
+use crate::sample::Sample;
+use crate::scene::{Scene, Stage};
+use crate::shapes::Mesh;
+
+/// What part of the object a sample shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Framing {
+    /// All of it, its longer side filling the square but for a margin: the view of the light
+    /// network.
+    WholeObject,
+    /// A random square cut from a larger picture of the object, at least 40 % object (less only of the
+    /// most slender ones), turned or mirrored, its colours in any order.
+    Crop,
+}
+
+/// Draws samples from a recipe; everything it does depends on the recipe and the sample's number alone.
+pub struct Renderer {
+    recipe: SceneRecipe,
+    meshes: Vec<Mesh>,
+    measured: Vec<Measured>,
+}
+
+impl Renderer {
+    /// Checks the recipe and reads the files it names.
+    ///
+    /// # Errors
+    /// A number out of range, or a file that is missing or has other contents than expected.
+    pub fn new(recipe: SceneRecipe) -> Result<Self, SynthError> {
+        recipe.validate()?;
+        let mut meshes = Vec::new();
+        if recipe.shapes.mesh > 0.0
+            && let Some(folder) = &recipe.shapes.mesh_folder
+        {
+            for file in normalight_io::mesh_files(folder)? {
+                meshes.push(Mesh::new(&normalight_io::read_mesh_file(&file)?));
+            }
+        }
+        let measured = match &recipe.materials.measured_file {
+            Some(file) if recipe.materials.measured_share > 0.0 => Measured::read(file)?,
+            _ => Vec::new(),
+        };
+        Ok(Self {
+            recipe,
+            meshes,
+            measured,
+        })
+    }
+
+    /// The recipe.
+    pub fn recipe(&self) -> &SceneRecipe {
+        &self.recipe
+    }
+
+    /// Sample number `number`: always the same bits for the same arguments, on any machine and thread.
+    /// The shape and materials do not depend on `images`.
+    ///
+    /// # Panics
+    /// `images` or `size` is zero.
+    pub fn sample(&self, number: u64, images: usize, size: usize, framing: Framing) -> Sample {
+        match framing {
+            Framing::WholeObject => self.whole_scene(number, images, size).whole(images),
+            Framing::Crop => {
+                let parts = self.recipe.sampling.crops_per_scene as u64;
+                let part = (number % parts) as usize;
+                self.crop_scene(number / parts, images, size)
+                    .crop(part, images)
+            }
+        }
+    }
+
+    /// The scene behind whole-object sample `number`, with `images` lamps.
+    ///
+    /// # Panics
+    /// `images` or `size` is zero.
+    pub fn whole_scene(&self, number: u64, images: usize, size: usize) -> Scene {
+        assert!(images > 0 && size > 0, "a scene needs lamps and pixels");
+        Scene::of_whole(&self.stage(number), images, size)
+    }
+
+    /// The scene that crops number `crops_per_scene * number` and following are cut from. It has the
+    /// recipe's lamps, or `images` if that is more.
+    ///
+    /// # Panics
+    /// `images` or `size` is zero.
+    pub fn crop_scene(&self, number: u64, images: usize, size: usize) -> Scene {
+        assert!(images > 0 && size > 0, "a scene needs lamps and pixels");
+        let lamps = self.recipe.sampling.lights_per_scene.max(images);
+        Scene::for_crops(&self.stage(number), lamps, size)
+    }
+
+    fn stage(&self, seed: u64) -> Stage<'_> {
+        Stage {
+            recipe: &self.recipe,
+            meshes: &self.meshes,
+            measured: &self.measured,
+            seed,
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! An object under lamps, rendered once, from which many samples are taken.
+mod crops;
+mod framing;
+mod points;
+mod symmetry;
+
+pub(crate) use points::Points;
+
+use crate::camera::{Camera, Visible};
+use crate::lighting::{Bounces, Lamp, Shadows, lamps, tinted};
+use crate::materials::{Measured, Paint, Surfaces, shade};
+use crate::random::{Random, Stream};
+use crate::recipe::{SceneRecipe, TransportRecipe};
+use crate::sample::Sample;
+use crate::shapes::{Mesh, View, object};
+use crops::Crops;
+use framing::frame;
+use symmetry::Symmetry;
+
+/// Least share of a crop that shows the object.
+const MIN_COVER: f32 = 0.4;
+/// Scenes are drawn larger by this factor until crops can show enough of slender objects.
+const NEARER: f32 = 1.35;
+/// Largest side of a scene that crops are cut from.
+const LARGEST_SIDE: usize = 640;
+
+/// What the drawing of a scene starts from.
+pub(crate) struct Stage<'a> {
+    pub(crate) recipe: &'a SceneRecipe,
+    pub(crate) meshes: &'a [Mesh],
+    pub(crate) measured: &'a [Measured],
+    pub(crate) seed: u64,
+}
+
+/// An object with the light of each lamp that reaches the camera, before any camera.
+///
+/// Rendering is the costly part; [`Scene::whole`] and [`Scene::crop`] take photographs of it.
+pub struct Scene {
+    seed: u64,
+    recipe: SceneRecipe,
+    view: View,
+    crops: Option<Crops>,
+    /// Number of the point at every pixel.
+    ///
+    /// `[height, width]`
+    numbers: Vec<u32>,
+    lamps: Vec<Lamp>,
+    /// Light at lamps of intensity 1.
+    ///
+    /// `[lamps][3][points]`
+    radiance: Vec<[Vec<f32>; 3]>,
+    /// Light that is the same in all images.
+    ///
+    /// `[3][points]`
+    ambient: Option<[Vec<f32>; 3]>,
+}
+
+impl Scene {
+    /// The whole object in a square of `side` pixels.
+    pub(crate) fn of_whole(stage: &Stage, lamps: usize, side: usize) -> Self {
+        let mut random = Random::new(stage.seed, Stream::Shape);
+        let object = object(&stage.recipe.shapes, stage.meshes, &mut random);
+        let mut random = Random::new(stage.seed, Stream::Framing);
+        let view = frame(&object, &stage.recipe.shapes, &mut random, side);
+        Self::render(stage, view, None, lamps, object.reach())
+    }
+
+    /// An object large enough to cut crops of `size` pixels from.
+    pub(crate) fn for_crops(stage: &Stage, lamps: usize, size: usize) -> Self {
+        let mut random = Random::new(stage.seed, Stream::Shape);
+        let object = object(&stage.recipe.shapes, stage.meshes, &mut random);
+        let [low, high] = stage.recipe.shapes.crop_object_pixels;
+        let mut random = Random::new(stage.seed, Stream::Framing);
+        let mut side = (random.log_range(low, high) as usize).max(size);
+        loop {
+            let mut random = random.clone();
+            let view = frame(&object, &stage.recipe.shapes, &mut random, side);
+            let crops = Crops::new(&view, size);
+            if crops.best_cover() >= MIN_COVER || side >= LARGEST_SIDE.max(size) {
+                return Self::render(stage, view, Some(crops), lamps, object.reach());
+            }
+            side = (side as f32 * NEARER) as usize;
+        }
+    }
+
+    fn render(
+        stage: &Stage,
+        view: View,
+        crops: Option<Crops>,
+        lamp_count: usize,
+        reach: f32,
+    ) -> Self {
+        let recipe = stage.recipe;
+        let points = Points::new(&view);
+        let mut random = Random::new(stage.seed, Stream::Material);
+        let paint = Paint::draw(&recipe.materials, stage.measured, &mut random);
+        let surfaces = Surfaces::new(&paint, &points.places, &points.normals);
+        let transport = Transport::draw(&recipe.transport, &mut random);
+        let mut random = Random::new(stage.seed, Stream::Lights);
+        let lamps = lamps(&recipe.lights, &mut random, lamp_count, reach);
+        let radiance = transport.light(&view, &points, &surfaces, paint.measured(), &lamps);
+        let mut numbers = vec![u32::MAX; view.depth.len()];
+        for (number, &pixel) in points.pixels.iter().enumerate() {
+            numbers[pixel as usize] = number as u32;
+        }
+        let ambient = (transport.ambient > 0.0).then(|| ambient(&points, &surfaces, &transport));
+        Self {
+            seed: stage.seed,
+            recipe: recipe.clone(),
+            view,
+            crops,
+            numbers,
+            lamps,
+            radiance,
+            ambient,
+        }
+    }
+
+    /// Photographs of the whole picture under the first `images` lamps (at most those rendered).
+    pub fn whole(&self, images: usize) -> Sample {
+        let mut random = Random::new(self.seed, Stream::Camera);
+        let chosen: Vec<usize> = (0..images.min(self.lamps.len())).collect();
+        let side = self.view.window.width;
+        self.photograph(&chosen, (0, 0), side, Symmetry::NONE, &mut random)
+    }
+
+    /// Photographs of crop number `part`: a window, lamps, brightness, exposure and noise of its own.
+    ///
+    /// # Panics
+    /// The scene was not made for crops.
+    pub fn crop(&self, part: usize, images: usize) -> Sample {
+        let crops = self.crops.as_ref().expect("a scene made for crops");
+        let seed = self.seed ^ (part as u64 + 1).wrapping_mul(0xa076_1d64_78bd_642f);
+        let mut random = Random::new(seed, Stream::Crop);
+        let place = crops.draw(&mut random, MIN_COVER);
+        let symmetry = Symmetry::draw(&mut random);
+        // The first of a random order of the lamps.
+        let mut order: Vec<usize> = (0..self.lamps.len()).collect();
+        let images = images.min(order.len());
+        for place in 0..images {
+            let other = place + random.below(order.len() - place);
+            order.swap(place, other);
+        }
+        order.truncate(images);
+        self.photograph(&order, place, crops.size(), symmetry, &mut random)
+    }
+
+    fn photograph(
+        &self,
+        chosen: &[usize],
+        (top, left): (usize, usize),
+        size: usize,
+        symmetry: Symmetry,
+        random: &mut Random,
+    ) -> Sample {
+        let lamps: Vec<Lamp> = chosen.iter().map(|&lamp| self.lamps[lamp]).collect();
+        let mut lights = tinted(&self.recipe.lights, random, &lamps);
+        let mut sample = Sample::empty(size, chosen.len());
+        // The visible pixels of the crop, in the order of the finished picture.
+        let mut seen: Vec<(u32, u32)> = Vec::new();
+        for row in 0..size {
+            for column in 0..size {
+                let from = (top + row) * self.view.window.width + left + column;
+                if self.numbers[from] == u32::MAX {
+                    continue;
+                }
+                let (row, column) = symmetry.pixel(row, column, size);
+                let pixel = row * size + column;
+                sample.mask[pixel] = true;
+                sample.normals[pixel] = symmetry.vector(self.view.normals[from]);
+                sample.depth[pixel] = self.view.depth[from] / self.view.window.pitch;
+                seen.push((pixel as u32, self.numbers[from]));
+            }
+        }
+        seen.sort_unstable();
+        let pixels: Vec<u32> = seen.iter().map(|&(pixel, _)| pixel).collect();
+        let numbers: Vec<u32> = seen.iter().map(|&(_, number)| number).collect();
+        let mut light = Vec::with_capacity(chosen.len() * 3 * pixels.len());
+        for (&lamp, tint) in chosen.iter().zip(&lights) {
+            for channel in symmetry.channels {
+                let plane = &self.radiance[lamp][channel];
+                let intensity = tint.intensity[channel];
+                match &self.ambient {
+                    None => light.extend(numbers.iter().map(|&n| plane[n as usize] * intensity)),
+                    Some(ambient) => light.extend(
+                        numbers
+                            .iter()
+                            .map(|&n| plane[n as usize] * intensity + ambient[channel][n as usize]),
+                    ),
+                }
+            }
+        }
+        for tint in &mut lights {
+            tint.direction = symmetry.vector(tint.direction);
+            tint.intensity = symmetry.channels.map(|channel| tint.intensity[channel]);
+        }
+        self.develop(&mut light, &pixels, &mut sample, random);
+        sample.lights = lights;
+        sample
+    }
+
+    /// From light at the visible pixels to the sample's images.
+    fn develop(&self, light: &mut [f32], pixels: &[u32], sample: &mut Sample, random: &mut Random) {
+        if pixels.is_empty() {
+            return;
+        }
+        let camera = Camera::draw(&self.recipe.camera, random);
+        let (mut sum, mut largest) = (0.0f32, 0.0f32);
+        for plane in light.chunks_exact(pixels.len()) {
+            let mut plane_sum = 0.0;
+            for &value in plane {
+                plane_sum += value;
+                largest = if value > largest { value } else { largest };
+            }
+            sum += plane_sum / pixels.len() as f32;
+        }
+        let planes = light.len() / pixels.len();
+        let gain = camera.gain(sum / planes as f32, largest);
+        let (size, area) = (sample.size, sample.size * sample.size);
+        let visible = Visible { size, pixels };
+        let images = sample.images.chunks_exact_mut(3 * area);
+        for (light, image) in light.chunks_exact_mut(3 * pixels.len()).zip(images) {
+            camera.take(light, &visible, gain, random);
+            let planes = light.chunks_exact(pixels.len());
+            for (plane, values) in image.chunks_exact_mut(area).zip(planes) {
+                for (&pixel, &value) in pixels.iter().zip(values) {
+                    plane[pixel as usize] = value;
+                }
+            }
+        }
+    }
+}
+
+/// Which light paths a scene has.
+struct Transport {
+    shadows: bool,
+    bounces: bool,
+    ambient: f32,
+}
+
+impl Transport {
+    fn draw(recipe: &TransportRecipe, random: &mut Random) -> Self {
+        Self {
+            shadows: random.chance(recipe.cast_shadow_share),
+            bounces: random.chance(recipe.bounce_share),
+            ambient: if random.chance(recipe.ambient_share) {
+                recipe.ambient * random.unit()
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// Light of each lamp that reaches the camera.
+    ///
+    /// `[lamps][3][points]`
+    fn light(
+        &self,
+        view: &View,
+        points: &Points,
+        surfaces: &Surfaces,
+        measured: &[Measured],
+        lamps: &[Lamp],
+    ) -> Vec<[Vec<f32>; 3]> {
+        let count = points.normal[0].len();
+        let shadows = self.shadows.then(|| Shadows::new(view));
+        let mut irradiance = Vec::new();
+        let mut radiance = Vec::with_capacity(lamps.len());
+        for lamp in lamps {
+            let mut lit = vec![1.0; count];
+            if let Some(shadows) = &shadows {
+                let all = shadows.lit(lamp);
+                for (lit, &pixel) in lit.iter_mut().zip(&points.pixels) {
+                    *lit = all[pixel as usize];
+                }
+            }
+            let mut planes = std::array::from_fn(|_| vec![0.0; count]);
+            shade(points, surfaces, measured, lamp, &lit, &mut planes);
+            radiance.push(planes);
+            if self.bounces {
+                lamp.dim(points, &mut lit);
+                irradiance.push(lit);
+            }
+        }
+        if self.bounces {
+            Bounces::new(view, points).add(points, surfaces, &irradiance, &mut radiance);
+        }
+        radiance
+    }
+}
+
+/// What the room's light adds: more on surfaces that face the camera's side.
+fn ambient(points: &Points, surfaces: &Surfaces, transport: &Transport) -> [Vec<f32>; 3] {
+    std::array::from_fn(|channel| {
+        let scattered = surfaces.scattered[channel].iter();
+        scattered
+            .zip(&points.normal[2])
+            .map(|(scattered, z)| scattered * (transport.ambient * (0.5 + 0.5 * z)))
+            .collect()
+    })
+}

@@ -1,0 +1,16 @@
+//! What is photographed: solids as signed distances, and meshes.
+mod figures;
+mod lathe;
+mod mesh;
+mod objects;
+mod part;
+mod plate;
+mod ray;
+mod relief;
+mod shape;
+mod vessels;
+mod view;
+
+pub(crate) use mesh::Mesh;
+pub(crate) use objects::{Object, object};
+pub(crate) use view::{Detail, View, Window};

@@ -1,0 +1,344 @@
+use super::ray::{follow, tile_start};
+use super::shape::Shape;
+use crate::noise::Lattice;
+use glam::Vec3;
+
+/// Rays of one tile share their start; pixels a side.
+const TILE: usize = 8;
+/// Flatter views of the surface than this cosine are left out of the mask: they are seen edge-on,
+/// where one pixel holds both object and background.
+const MIN_NORMAL_Z: f32 = 0.02;
+
+/// A rectangle of the plane z = 0 seen by a camera on the z axis; rows go down.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Window {
+    pub(crate) left: f32,
+    pub(crate) top: f32,
+    /// Side of a pixel in units of the object, at z = 0.
+    pub(crate) pitch: f32,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// One over the camera's height over z = 0; zero for an orthographic camera.
+    pub(crate) inverse_distance: f32,
+}
+
+/// What one pixel looks along: from the camera through a point of the plane z = 0.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ray {
+    x: f32,
+    y: f32,
+    inverse_distance: f32,
+}
+
+impl Ray {
+    /// Its point at height z.
+    #[inline]
+    pub(crate) fn at(&self, z: f32) -> Vec3 {
+        let share = 1.0 - z * self.inverse_distance;
+        Vec3::new(self.x * share, self.y * share, z)
+    }
+
+    /// Unit vector towards the camera.
+    pub(crate) fn to_camera(self) -> Vec3 {
+        let (x, y) = (self.x, self.y);
+        Vec3::new(-x * self.inverse_distance, -y * self.inverse_distance, 1.0).normalize()
+    }
+
+    /// Change of z when walking one unit down the ray.
+    pub(crate) fn z_per_length(&self) -> f32 {
+        self.to_camera().z
+    }
+}
+
+impl Window {
+    /// x of the centre of a column.
+    pub(crate) fn x(&self, column: usize) -> f32 {
+        self.left + (column as f32 + 0.5) * self.pitch
+    }
+
+    /// y of the centre of a row.
+    pub(crate) fn y(&self, row: usize) -> f32 {
+        self.top - (row as f32 + 0.5) * self.pitch
+    }
+
+    /// What a pixel looks along.
+    pub(crate) fn ray(&self, pixel: usize) -> Ray {
+        self.ray_through(self.x(pixel % self.width), self.y(pixel / self.width))
+    }
+
+    pub(crate) fn ray_through(&self, x: f32, y: f32) -> Ray {
+        let inverse_distance = self.inverse_distance;
+        Ray {
+            x,
+            y,
+            inverse_distance,
+        }
+    }
+
+    /// Depth in the space where the camera's rays are parallel: straight lines stay straight.
+    #[inline]
+    pub(crate) fn parallel_depth(&self, z: f32) -> f32 {
+        z / (1.0 - z * self.inverse_distance)
+    }
+}
+
+/// What the camera sees of a shape.
+#[derive(Debug, Clone)]
+pub(crate) struct View {
+    pub(crate) window: Window,
+    /// z of the surface, negative infinity where nothing is.
+    ///
+    /// `[height, width]`
+    pub(crate) depth: Vec<f32>,
+    /// z of the object's far side, never above `depth`; meaningless where nothing is.
+    ///
+    /// `[height, width]`
+    pub(crate) back: Vec<f32>,
+    /// Unit normals, zero where nothing is or when only the depth was asked for.
+    ///
+    /// `[height, width]`
+    pub(crate) normals: Vec<Vec3>,
+}
+
+/// What to find out about every pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Detail {
+    Depth,
+    /// Normals and the far side too.
+    All,
+}
+
+/// Pixels that share one ray to the far side, a side: shadows need it only roughly.
+const BACK_BLOCK: usize = 2;
+
+impl View {
+    /// Follows one ray a pixel down to the surface.
+    pub(crate) fn trace(shape: &Shape, window: Window, detail: Detail) -> Self {
+        let lattice = Lattice::shared();
+        let mut view = Self {
+            window,
+            depth: vec![f32::NEG_INFINITY; window.width * window.height],
+            back: vec![f32::NEG_INFINITY; window.width * window.height],
+            normals: vec![Vec3::ZERO; window.width * window.height],
+        };
+        for row in (0..window.height).step_by(TILE) {
+            for column in (0..window.width).step_by(TILE) {
+                view.trace_tile(shape, lattice, row, column);
+            }
+        }
+        view.close_pinholes();
+        if detail == Detail::All {
+            view.find_normals(shape);
+            view.find_back(shape);
+        }
+        view
+    }
+
+    pub(crate) fn is_inside(&self, pixel: usize) -> bool {
+        self.depth[pixel] > f32::NEG_INFINITY
+    }
+
+    fn trace_tile(&mut self, shape: &Shape, lattice: &Lattice, row: usize, column: usize) {
+        let window = self.window;
+        let rows = row..(row + TILE).min(window.height);
+        let columns = column..(column + TILE).min(window.width);
+        let half = TILE as f32 / 2.0 * window.pitch;
+        let centre_x = window.left + column as f32 * window.pitch + half;
+        let centre_y = window.top - row as f32 * window.pitch - half;
+        // Rays of a camera nearby spread, and lean over other columns of space.
+        let spread = shape.reach() * window.inverse_distance;
+        let radius = half * std::f32::consts::SQRT_2 * (1.0 + spread);
+        let leaning = spread * (centre_x * centre_x + centre_y * centre_y).sqrt();
+        let active = shape.active(centre_x, centre_y, radius + leaning);
+        if active.is_empty() {
+            return;
+        }
+        let middle = window.ray_through(centre_x, centre_y);
+        let Some(start) = tile_start(shape, lattice, active, middle, radius) else {
+            return;
+        };
+        for row in rows {
+            for column in columns.clone() {
+                let pixel = row * window.width + column;
+                let ray = window.ray(pixel);
+                if let Some(hit) = follow(shape, lattice, active, ray, start, window.pitch) {
+                    self.depth[pixel] = hit;
+                }
+            }
+        }
+    }
+
+    /// Lays single pixels onto their neighbours where a ray got stuck in a crease.
+    fn close_pinholes(&mut self) {
+        let (width, height) = (self.window.width, self.window.height);
+        for row in 1..height.max(2) - 1 {
+            for column in 1..width.max(2) - 1 {
+                let pixel = row * width + column;
+                if !self.is_inside(pixel) && self.is_surrounded(row, column) {
+                    let across = self.depth[pixel - 1] + self.depth[pixel + 1];
+                    let along = self.depth[pixel - width] + self.depth[pixel + width];
+                    self.depth[pixel] = (across + along) / 4.0;
+                }
+            }
+        }
+    }
+
+    /// Finds the normals from the gradient of the shape.
+    pub(crate) fn find_normals(&mut self, shape: &Shape) {
+        let lattice = Lattice::shared();
+        let spread = 0.1 * self.window.pitch;
+        for pixel in 0..self.depth.len() {
+            if !self.is_inside(pixel) {
+                continue;
+            }
+            let hit = self.window.ray(pixel).at(self.depth[pixel]);
+            let active = shape.active(hit.x, hit.y, 2.0 * spread);
+            self.normals[pixel] = shape.normal(lattice, hit, active, spread);
+        }
+        self.leave_edges();
+    }
+
+    /// From depth, far side and normals of the surface as it is.
+    pub(crate) fn from_planes(
+        window: Window,
+        depth: Vec<f32>,
+        back: Vec<f32>,
+        normals: Vec<Vec3>,
+    ) -> Self {
+        let mut view = Self {
+            window,
+            depth,
+            back,
+            normals,
+        };
+        view.leave_edges();
+        view
+    }
+
+    /// Pixels seen edge-on leave the view, unless they are within the object, where a hole in the mask
+    /// would be unlike any real mask.
+    fn leave_edges(&mut self) {
+        let width = self.window.width;
+        let mut leaving = Vec::new();
+        for pixel in 0..self.depth.len() {
+            if !self.is_inside(pixel) {
+                continue;
+            }
+            let (normal, to_camera) = (self.normals[pixel], self.window.ray(pixel).to_camera());
+            if normal.z.min(normal.dot(to_camera)) >= MIN_NORMAL_Z {
+                continue;
+            }
+            if self.is_surrounded(pixel / width, pixel % width) {
+                self.normals[pixel] = edge_on_normal(normal, to_camera);
+            } else {
+                leaving.push(pixel);
+            }
+        }
+        // Only now, or each would expose the next.
+        for pixel in leaving {
+            self.depth[pixel] = f32::NEG_INFINITY;
+            self.normals[pixel] = Vec3::ZERO;
+        }
+    }
+
+    /// Finds the far side by rays from behind, one for a block of pixels.
+    fn find_back(&mut self, shape: &Shape) {
+        let lattice = Lattice::shared();
+        let (width, height) = (self.window.width, self.window.height);
+        for row in (0..height).step_by(BACK_BLOCK) {
+            for column in (0..width).step_by(BACK_BLOCK) {
+                let block: Vec<usize> = (row..(row + BACK_BLOCK).min(height))
+                    .flat_map(|row| {
+                        (column..(column + BACK_BLOCK).min(width)).map(move |c| row * width + c)
+                    })
+                    .filter(|&pixel| self.is_inside(pixel))
+                    .collect();
+                let Some(&pixel) = block.first() else {
+                    continue;
+                };
+                let ray = self.window.ray(pixel);
+                let back = back_of(shape, lattice, ray, self.depth[pixel], self.window.pitch);
+                for pixel in block {
+                    self.back[pixel] = back.min(self.depth[pixel]);
+                }
+            }
+        }
+    }
+
+    fn is_surrounded(&self, row: usize, column: usize) -> bool {
+        let (width, height) = (self.window.width, self.window.height);
+        let pixel = row * width + column;
+        (column == 0 || self.is_inside(pixel - 1))
+            && (column + 1 == width || self.is_inside(pixel + 1))
+            && (row == 0 || self.is_inside(pixel - width))
+            && (row + 1 == height || self.is_inside(pixel + width))
+    }
+}
+
+/// z of the object's far side on a ray, roughly: shadows need no more.
+fn back_of(shape: &Shape, lattice: &Lattice, ray: Ray, front: f32, pitch: f32) -> f32 {
+    let mut z = -shape.reach();
+    for _ in 0..12 {
+        let point = ray.at(z);
+        let active = shape.active(point.x, point.y, 0.0);
+        if active.is_empty() {
+            break;
+        }
+        let distance = shape.distance(lattice, point, active);
+        if distance < pitch || z >= front {
+            break;
+        }
+        z += distance * 0.9;
+    }
+    z
+}
+
+/// The nearest normal that the camera just sees.
+fn edge_on_normal(normal: Vec3, to_camera: Vec3) -> Vec3 {
+    let mut seen = normal + to_camera * (MIN_NORMAL_Z - normal.dot(to_camera)).max(0.0);
+    seen.z = seen.z.max(MIN_NORMAL_Z);
+    seen.normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::part::Part;
+    use crate::shapes::relief::Relief;
+    use crate::shapes::shape::Body;
+    use glam::Mat3;
+
+    #[test]
+    fn sphere_has_analytic_normals_and_mask() {
+        let radius = 0.8;
+        let parts = vec![Part::sphere(Vec3::ZERO, radius)];
+        let shape = Shape::new(Body::None, parts, 0.0, Relief::default(), Mat3::IDENTITY);
+        let window = Window {
+            left: -1.0,
+            top: 1.0,
+            pitch: 2.0 / 50.0,
+            width: 50,
+            height: 50,
+            inverse_distance: 0.0,
+        };
+        let view = View::trace(&shape, window, Detail::All);
+        for row in 0..50 {
+            for column in 0..50 {
+                // Written out apart from the window: x right, y up, rows from the top.
+                let x = -1.0 + (column as f32 + 0.5) * 0.04;
+                let y = 1.0 - (row as f32 + 0.5) * 0.04;
+                let height_squared = radius * radius - x * x - y * y;
+                let normal = view.normals[row * 50 + column];
+                if height_squared < -0.01 {
+                    assert_eq!(normal, Vec3::ZERO);
+                } else if height_squared > 0.01 {
+                    let expected = Vec3::new(x, y, height_squared.sqrt()) / radius;
+                    let degrees = normal.angle_between(expected).to_degrees();
+                    assert!(degrees < 0.5, "{row} {column}: {degrees} degrees");
+                    let depth = view.depth[row * 50 + column];
+                    assert!((depth - height_squared.sqrt()).abs() < 0.01);
+                }
+            }
+        }
+    }
+}
