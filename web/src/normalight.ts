@@ -8,7 +8,6 @@ import type {
   DeviceReport,
   Estimate,
   EstimateOptions,
-  NamedFile,
   Plan,
   StackFile,
   Thumbnail,
@@ -88,11 +87,6 @@ export class Normalight {
     { color = "auto", side = 160, signal }: { color?: ColorMode; side?: number; signal?: AbortSignal } = {},
   ): Promise<Thumbnail> {
     return this.#run("thumbnail", { file, color, side }, { signal });
-  }
-
-  /** A rendered stack, to try the estimation with. */
-  renderSample(): Promise<NamedFile[]> {
-    return this.#run("sample", {});
   }
 
   /** Ends the worker and all calls; the object is of no use any more. */

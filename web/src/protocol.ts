@@ -3,7 +3,6 @@ import type {
   DeviceChoice,
   DeviceReport,
   Estimate,
-  NamedFile,
   Plan,
   StackFile,
   Stage,
@@ -24,7 +23,6 @@ export interface Tasks {
   create: { ask: { device: DeviceChoice }; answer: DeviceReport };
   plan: { ask: { files: readonly StackFile[] }; answer: Plan };
   thumbnail: { ask: { file: StackFile; color: ColorMode; side: number }; answer: Thumbnail };
-  sample: { ask: Record<never, never>; answer: NamedFile[] };
   estimate: {
     ask: {
       files: readonly StackFile[];

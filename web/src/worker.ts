@@ -49,8 +49,6 @@ async function perform(request: Exclude<ToWorker, { task: "cancel" }>): Promise<
       const { file, color, side } = request.ask;
       return wasm.thumbnail(await read(file), color, side);
     }
-    case "sample":
-      return wasm.render_sample();
     case "estimate":
       return await estimate(request.ask);
   }

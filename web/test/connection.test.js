@@ -47,7 +47,7 @@ test("failures are typed", async () => {
 test("a cancelled task rejects with the signal's reason", async () => {
   const { worker, connection } = connect();
   const controller = new AbortController();
-  const answer = connection.run("sample", {}, { signal: controller.signal });
+  const answer = connection.run("estimate", {}, { signal: controller.signal });
   controller.abort(new Error("enough"));
   assert.deepEqual(worker.asked.at(-1), { task: "cancel" });
   worker.say({ news: "failed", kind: "cancelled", message: "cancelled" });
@@ -59,7 +59,7 @@ test("a task that does not hear the cancel loses its worker", async (t) => {
   t.mock.timers.enable({ apis: ["setTimeout"] });
   const { worker, connection } = connect();
   const controller = new AbortController();
-  const answer = connection.run("sample", {}, { signal: controller.signal });
+  const answer = connection.run("estimate", {}, { signal: controller.signal });
   controller.abort();
   t.mock.timers.tick(3000);
   await assert.rejects(answer, { name: "AbortError" });
@@ -69,9 +69,9 @@ test("a task that does not hear the cancel loses its worker", async (t) => {
 
 test("after a crash every task fails with its words", async () => {
   const { worker, connection } = connect();
-  const answer = connection.run("sample", {});
+  const answer = connection.run("plan", { files: [] });
   worker.say({ news: "crashed", message: "index out of bounds" });
   await assert.rejects(answer, { kind: "crashed", message: /index out of bounds/ });
-  await assert.rejects(connection.run("sample", {}), { kind: "crashed" });
+  await assert.rejects(connection.run("plan", { files: [] }), { kind: "crashed" });
   assert.equal(worker.terminated, true);
 });

@@ -33,27 +33,28 @@ afterEach(() => {
 
 const done = (answer) => ({ news: "done", answer });
 const crashed = { news: "crashed", message: "unreachable" };
+const file = { name: "a.png", bytes: new Uint8Array() };
 const deviceOf = ({ device }) => done({ kind: device === "cpu" ? "cpu" : "gpu", name: device });
 
 test("calls are done one after the other", async () => {
-  answers = { create: deviceOf, sample: () => done([]), plan: () => undefined };
+  answers = { create: deviceOf, thumbnail: () => done("small"), plan: () => undefined };
   const normalight = await Normalight.create({ device: "cpu" });
   const plan = normalight.plan([]);
-  const sample = normalight.renderSample();
+  const thumbnail = normalight.thumbnail(file);
   await new Promise((resolve) => setTimeout(resolve, 5));
   const tasks = () => started[0].asked.map(({ task }) => task);
   assert.deepEqual(tasks(), ["create", "plan"]);
   started[0].onmessage({ data: { news: "failed", kind: "input", message: "bad list" } });
   await assert.rejects(plan, { kind: "input" });
-  assert.deepEqual(await sample, []);
-  assert.deepEqual(tasks(), ["create", "plan", "sample"]);
+  assert.equal(await thumbnail, "small");
+  assert.deepEqual(tasks(), ["create", "plan", "thumbnail"]);
 });
 
 test("after a crash the next call gets a new worker", async () => {
-  answers = { create: deviceOf, plan: () => crashed, sample: () => done([]) };
+  answers = { create: deviceOf, plan: () => crashed, thumbnail: () => done("small") };
   const normalight = await Normalight.create({ device: "gpu" });
   await assert.rejects(normalight.plan([]), { kind: "crashed" });
-  assert.deepEqual(await normalight.renderSample(), []);
+  assert.equal(await normalight.thumbnail(file), "small");
   assert.equal(started.length, 2);
   assert.equal(normalight.device.kind, "gpu");
 });
@@ -75,14 +76,14 @@ test("a closed estimator refuses, and ends what is under way", async () => {
   await new Promise((resolve) => setTimeout(resolve, 5));
   normalight.close();
   await assert.rejects(plan, { kind: "closed" });
-  await assert.rejects(normalight.renderSample(), { kind: "closed" });
+  await assert.rejects(normalight.thumbnail(file), { kind: "closed" });
   assert.equal(started[0].terminated, true);
 });
 
 test("a call that was cancelled before its turn is never begun", async () => {
   answers = { create: deviceOf };
   const normalight = await Normalight.create({ device: "cpu" });
-  const sample = normalight.estimate([], { signal: AbortSignal.abort() });
-  await assert.rejects(sample, { name: "AbortError" });
+  const estimate = normalight.estimate([], { signal: AbortSignal.abort() });
+  await assert.rejects(estimate, { name: "AbortError" });
   assert.equal(started[0].asked.length, 1);
 });

@@ -4,6 +4,7 @@ import { filesOfDrop, filesOfFolder } from "./files.js";
 import { Intro } from "./intro.js";
 import { ResultView } from "./result.js";
 import { Run } from "./run.js";
+import { SampleChoice } from "./sample_choice.js";
 import { Settings } from "./settings.js";
 import { Stack } from "./stack.js";
 
@@ -34,23 +35,27 @@ function connect(button: string, input: string, take: (files: File[]) => void): 
   });
 }
 
-connect("pick-files", "files", (files) => stack.take(files));
-connect("pick-folder", "folder", (files) => stack.take(filesOfFolder(files)));
-connect("add", "more", (files) => stack.take(files, true));
-byId("clear").addEventListener("click", () => stack.take([]));
-
-const sample = byId<HTMLButtonElement>("sample");
-sample.addEventListener("click", async () => {
-  sample.disabled = true;
-  try {
-    const files = await engine.with((normalight) => normalight.renderSample());
-    stack.take(files.map(({ name, bytes }) => new File([bytes], name)));
-  } catch (error) {
-    run.fail(wordsOf(error));
-  } finally {
-    sample.disabled = false;
-  }
+const samples = new SampleChoice((files, { color }) => {
+  settings.lendColor(color);
+  stack.take(files);
 });
+// A sample that arrives late must not replace the photographs of a run.
+form.addEventListener("submit", () => samples.cancel());
+
+/** Takes files of the user in place of all others. */
+function take(files: File[]): void {
+  samples.leave();
+  settings.returnColor();
+  stack.take(files);
+}
+
+connect("pick-files", "files", take);
+connect("pick-folder", "folder", (files) => take(filesOfFolder(files)));
+connect("add", "more", (files) => {
+  samples.leave();
+  stack.take(files, true);
+});
+byId("clear").addEventListener("click", () => take([]));
 
 // Anywhere on the page: a file that misses its target would replace the page.
 const page = document.documentElement;
@@ -66,7 +71,7 @@ page.addEventListener("drop", async (event) => {
   page.classList.remove("dragging");
   if (!event.dataTransfer || run.underWay) return;
   try {
-    stack.take(await filesOfDrop(event.dataTransfer));
+    take(await filesOfDrop(event.dataTransfer));
   } catch (error) {
     run.fail(wordsOf(error));
   }

@@ -36,13 +36,18 @@ export class Settings {
   readonly #form: HTMLFormElement;
   readonly #mask: FileSetting;
   readonly #lights: FileSetting;
+  readonly #changed: { device(): void; color(): void };
+  /** The user's colour, while files that know their own have theirs. */
+  #ownColor: ColorMode | undefined;
 
   constructor(form: HTMLFormElement, changed: { device(): void; color(): void }) {
     this.#form = form;
+    this.#changed = changed;
     this.#mask = new FileSetting(form, "mask");
     this.#lights = new FileSetting(form, "lights");
     form.addEventListener("change", ({ target }) => {
       const name = target instanceof HTMLInputElement ? target.name : "";
+      if (name === "color") this.#ownColor = undefined;
       if (name === "device" || name === "color") changed[name]();
     });
   }
@@ -53,6 +58,26 @@ export class Settings {
 
   get color(): ColorMode {
     return chosen(this.#form, "color") as ColorMode;
+  }
+
+  /** Sets the colour to what files are known to hold. */
+  lendColor(color: ColorMode): void {
+    this.#ownColor ??= this.color;
+    this.#setColor(color);
+  }
+
+  /** Those files are gone: the user's choice counts again. */
+  returnColor(): void {
+    if (this.#ownColor === undefined) return;
+    this.#setColor(this.#ownColor);
+    this.#ownColor = undefined;
+  }
+
+  #setColor(color: ColorMode): void {
+    if (color === this.color) return;
+    const radio = this.#form.querySelector<HTMLInputElement>(`input[name="color"][value="${color}"]`);
+    if (radio) radio.checked = true;
+    this.#changed.color();
   }
 
   get options(): EstimateOptions {

@@ -5,7 +5,7 @@ import { Page } from "./support/page.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
 
-const { files: golden } = goldenStack();
+const golden = goldenStack();
 /** @type {Page} */
 let page;
 

@@ -1,7 +1,10 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { sampleList } from "./support/files.js";
 import { Page } from "./support/page.js";
 
+const [statue] = sampleList();
+assert.ok(statue);
 /** @type {Page} */
 let page;
 
@@ -21,15 +24,14 @@ test("without WebGPU the page says so and uses the processor", async () => {
 });
 
 test("a run can be cancelled, and the next one works", async () => {
-  await page.page.click("#sample");
-  await page.thumbnails(16);
+  await page.sample(statue);
   await page.page.click("#start");
   await page.page.waitForFunction(() => document.querySelector("#stages [data-state=now]") !== null);
   await page.page.click("#cancel");
   await page.page.waitForSelector("#start:visible");
   assert.match((await page.page.textContent("#status")) ?? "", /^Cancelled/);
   assert.equal(await page.page.isVisible("#result"), false);
-  assert.equal(await page.page.locator("#thumbnails li").count(), 16);
+  assert.equal(await page.page.locator("#thumbnails li").count(), 17);
 
   assert.equal(await page.estimate(), "");
   assert.match((await page.page.textContent("#status")) ?? "", /^Done in/);

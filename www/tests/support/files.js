@@ -1,7 +1,8 @@
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { crc32, deflateSync } from "node:zlib";
 
 /** @typedef {{ name: string, bytes: Uint8Array }} TestFile */
@@ -13,19 +14,53 @@ function commandLine() {
   return path;
 }
 
-/** The golden stack with its mask, and what the native command makes of it. */
+/** The golden stack with its mask. @returns {TestFile[]} */
 export function goldenStack() {
-  const folder = mkdtempSync(join(tmpdir(), "normalight-page-"));
-  try {
-    const [stack, results] = [join(folder, "stack"), join(folder, "results")];
+  return inScratch((folder) => {
     // Cargo puts the programs of a workspace side by side.
     const suffix = process.platform === "win32" ? ".exe" : "";
-    execFileSync(join(dirname(commandLine()), `golden_stack${suffix}`), [stack]);
-    execFileSync(commandLine(), ["estimate", stack, "--out", results, "--device", "cpu", "--quiet"]);
-    return {
-      files: filesIn(stack),
-      results: new Map(filesIn(results).map(({ name, bytes }) => [name, bytes])),
-    };
+    execFileSync(join(dirname(commandLine()), `golden_stack${suffix}`), [folder]);
+    return filesIn(folder);
+  });
+}
+
+/** Where the samples lie that come with the page. */
+const SAMPLES = fileURLToPath(new URL("../../public/samples/", import.meta.url));
+
+/**
+ * The samples that come with the page, as its list has them.
+ * @returns {{ name: string, title: string, photographs: string[], mask: string, color: string }[]}
+ */
+export function sampleList() {
+  return JSON.parse(readFileSync(join(SAMPLES, "samples.json"), "utf8"));
+}
+
+/** All files of a sample's folder. @param {string} name */
+export function sampleFolder(name) {
+  return filesIn(join(SAMPLES, name));
+}
+
+/**
+ * What the native command makes of files.
+ * @param {TestFile[]} files @param {string[]} options
+ * @returns {Map<string, Uint8Array>}
+ */
+export function commandResults(files, ...options) {
+  return inScratch((folder) => {
+    const [stack, results] = [join(folder, "stack"), join(folder, "results")];
+    mkdirSync(stack);
+    for (const { name, bytes } of files) writeFileSync(join(stack, name), bytes);
+    const settings = ["--device", "cpu", "--quiet", ...options];
+    execFileSync(commandLine(), ["estimate", stack, "--out", results, ...settings]);
+    return new Map(filesIn(results).map(({ name, bytes }) => [name, bytes]));
+  });
+}
+
+/** Lends a folder that is gone afterwards. @template T @param {(folder: string) => T} work */
+function inScratch(work) {
+  const folder = mkdtempSync(join(tmpdir(), "normalight-page-"));
+  try {
+    return work(folder);
   } finally {
     rmSync(folder, { recursive: true });
   }

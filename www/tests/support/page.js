@@ -78,6 +78,13 @@ export class Page {
     );
   }
 
+  /** Chooses a sample and waits until it is there. @param {{ name: string, photographs: string[] }} sample */
+  async sample({ name, photographs }) {
+    await this.page.click(`[data-sample="${name}"]`);
+    await this.page.waitForSelector(`[data-sample="${name}"][aria-current="true"]`);
+    await this.thumbnails(photographs.length + 1);
+  }
+
   /** Chooses a file for a setting. @param {"mask" | "lights"} setting @param {import("./files.js").TestFile} file */
   async choose(setting, { name, bytes }) {
     const coming = this.page.waitForEvent("filechooser");
