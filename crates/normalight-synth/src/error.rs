@@ -48,6 +48,19 @@ pub enum SynthError {
         /// What should be there.
         expected: &'static str,
     },
+    /// Photographs that cannot be made a scene of.
+    #[error(transparent)]
+    Photographs(#[from] normalight_core::CoreError),
+    /// Photographs of the wrong shape.
+    #[error("{width}x{height} pixels found, a square of at least {least}x{least} expected")]
+    Size {
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+        /// Smallest side that works.
+        least: usize,
+    },
     /// A mesh could not be read.
     #[error(transparent)]
     Mesh(#[from] normalight_io::IoError),

@@ -28,4 +28,4 @@ pub use recipe::{
 };
 pub use renderer::{Framing, Renderer};
 pub use sample::{BitDepth, Sample};
-pub use scene::Scene;
+pub use scene::{Labelled, Scene};

@@ -21,7 +21,8 @@ pub struct Sample {
     ///
     /// `[size, size]`
     pub normals: Vec<Vec3>,
-    /// z in pixels, rising towards the camera from an arbitrary zero; NaN outside the mask.
+    /// z in pixels, rising towards the camera from an arbitrary zero; NaN outside the mask, and everywhere
+    /// in samples of finished photographs.
     ///
     /// `[size, size]`
     pub depth: Vec<f32>,

@@ -1,9 +1,11 @@
 //! An object under lamps, rendered once, from which many samples are taken.
 mod crops;
 mod framing;
+mod photographs;
 mod points;
 mod symmetry;
 
+pub use photographs::Labelled;
 pub(crate) use points::Points;
 
 use crate::camera::{Camera, Visible};
@@ -53,6 +55,8 @@ pub struct Scene {
     ///
     /// `[3][points]`
     ambient: Option<[Vec<f32>; 3]>,
+    /// Whether the view's depth is that of the object.
+    depth_known: bool,
 }
 
 impl Scene {
@@ -99,20 +103,36 @@ impl Scene {
         let mut random = Random::new(stage.seed, Stream::Lights);
         let lamps = lamps(&recipe.lights, &mut random, lamp_count, reach);
         let radiance = transport.light(&view, &points, &surfaces, paint.measured(), &lamps);
+        let ambient = (transport.ambient > 0.0).then(|| ambient(&points, &surfaces, &transport));
+        let seed = stage.seed;
+        let mut scene = Self::new(seed, recipe, view, crops, &points.pixels, lamps, radiance);
+        scene.ambient = ambient;
+        scene
+    }
+
+    fn new(
+        seed: u64,
+        recipe: &SceneRecipe,
+        view: View,
+        crops: Option<Crops>,
+        pixels: &[u32],
+        lamps: Vec<Lamp>,
+        radiance: Vec<[Vec<f32>; 3]>,
+    ) -> Self {
         let mut numbers = vec![u32::MAX; view.depth.len()];
-        for (number, &pixel) in points.pixels.iter().enumerate() {
+        for (number, &pixel) in pixels.iter().enumerate() {
             numbers[pixel as usize] = number as u32;
         }
-        let ambient = (transport.ambient > 0.0).then(|| ambient(&points, &surfaces, &transport));
         Self {
-            seed: stage.seed,
+            seed,
             recipe: recipe.clone(),
             view,
             crops,
             numbers,
             lamps,
             radiance,
-            ambient,
+            ambient: None,
+            depth_known: true,
         }
     }
 
@@ -168,7 +188,9 @@ impl Scene {
                 let pixel = row * size + column;
                 sample.mask[pixel] = true;
                 sample.normals[pixel] = symmetry.vector(self.view.normals[from]);
-                sample.depth[pixel] = self.view.depth[from] / self.view.window.pitch;
+                if self.depth_known {
+                    sample.depth[pixel] = self.view.depth[from] / self.view.window.pitch;
+                }
                 seen.push((pixel as u32, self.numbers[from]));
             }
         }

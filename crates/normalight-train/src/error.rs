@@ -50,12 +50,26 @@ pub enum TrainError {
         /// The loss.
         loss: f32,
     },
+    /// An object of a published set has too few images or pixels for the recipe.
+    #[error(
+        "a training object has {} images of {} pixels a side, {} of {} expected",
+        found[0], found[1], expected[0], expected[1]
+    )]
+    Sample {
+        /// Images and pixels a side.
+        found: [usize; 2],
+        /// What the recipe asks for.
+        expected: [usize; 2],
+    },
     /// The thread that renders samples ended early.
     #[error("the sample renderer stopped")]
     Loader,
     /// The picture of the curves could not be drawn.
     #[error("curves: {0}")]
     Plot(String),
+    /// A published training set cannot be read.
+    #[error(transparent)]
+    Published(#[from] normalight_io::IoError),
     /// Scene settings out of range.
     #[error(transparent)]
     Synth(#[from] SynthError),

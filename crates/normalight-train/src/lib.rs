@@ -12,9 +12,12 @@ mod loader;
 mod normal_task;
 mod recipe;
 mod run;
+mod source;
 mod task;
 
 pub use error::TrainError;
 pub use evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
-pub use recipe::{LightSettings, Network, NormalSettings, TrainRecipe};
+pub use recipe::{
+    LightSettings, Network, NormalSettings, PublishedChoice, PublishedRecipe, TrainRecipe,
+};
 pub use run::{StepReport, TrainRun, train};

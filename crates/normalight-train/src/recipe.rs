@@ -4,7 +4,7 @@ use normalight_model::{
 };
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Which network a recipe trains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,12 +59,37 @@ pub struct TrainRecipe {
     /// What the samples show.
     #[serde(default)]
     pub scene: SceneRecipe,
+    /// Train on a published set instead of rendered scenes; brightness and camera still come from `scene`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub published: Option<PublishedRecipe>,
     /// Settings of the light network; needed when `network` is `light`.
     #[serde(default)]
     pub light: LightSettings,
     /// Settings of the normal network; needed when `network` is `normal`.
     #[serde(default)]
     pub normal: NormalSettings,
+}
+
+/// A set in the layout of Blobby and Sculpture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PublishedRecipe {
+    /// Its folder, where `train_mtrl.txt` lies.
+    pub folder: PathBuf,
+    /// Which part of it.
+    #[serde(default)]
+    pub part: PublishedChoice,
+}
+
+/// Which part of a published set to train on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PublishedChoice {
+    /// All of it: the set's own split, or 99 % and 1 %.
+    #[default]
+    Train,
+    /// As in the paper's search: a tenth of it at 64x64, split by shape.
+    Search,
 }
 
 /// Settings of the light network and its loss.

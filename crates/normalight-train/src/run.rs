@@ -3,12 +3,14 @@ use crate::checkpoint::{self, Standing, write_aside};
 use crate::curves::{self, Point};
 use crate::light_task::LightTask;
 use crate::normal_task::NormalTask;
+use crate::source::Source;
 use crate::task::Task;
 use crate::{Network, TrainError, TrainRecipe, loader};
 use burn::module::Module;
 use burn::tensor::Device;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Side in pixels of the whole objects that normals are validated on.
@@ -73,7 +75,7 @@ fn train_task<T: Task>(
 ) -> Result<f32, TrainError> {
     let recipe = &run.recipe;
     // Before anything is written: a file that the recipe names may be missing.
-    let renderer = loader::renderer(recipe)?;
+    let source = Arc::new(Source::open(recipe)?);
     std::fs::create_dir_all(&run.folder).map_err(|source| TrainError::File {
         path: run.folder.clone(),
         source,
@@ -98,13 +100,13 @@ fn train_task<T: Task>(
         Network::Light => recipe.size,
         Network::Normal => VALIDATION_PIXELS,
     };
-    let objects = loader::validation_objects(recipe, &renderer, pixels);
-    let batches = loader::start::<T>(recipe, &renderer, standing.step);
+    let objects = source.validation_objects(recipe, pixels)?;
+    let batches = loader::start::<T>(recipe, &source, standing.step);
     let mut recent = Vec::new();
     let mut seconds = points.last().map_or(0.0, |point| point.seconds);
     while standing.step < recipe.steps {
         let start = Instant::now();
-        let batch = batches.recv().map_err(|_| TrainError::Loader)?;
+        let batch = batches.recv().map_err(|_| TrainError::Loader)??;
         let waited = start.elapsed().as_secs_f64();
         let loss = T::loss(recipe, &network, &batch, &training);
         let gradients = loss.backward();

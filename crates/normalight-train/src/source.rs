@@ -1,0 +1,135 @@
+use crate::recipe::PublishedChoice;
+use crate::{TrainError, TrainRecipe};
+use normalight_io::{PublishedEntry, PublishedSet, PublishedSplit};
+use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene};
+
+/// Numbers of validation objects start here, far from any training object.
+const VALIDATION_NUMBERS: u64 = 1 << 40;
+/// Images of a validation object.
+const VALIDATION_IMAGES: usize = 12;
+/// The search of the paper: share of the set, and side of its pictures.
+const SEARCH_SHARE: f64 = 0.1;
+const SEARCH_SIDE: usize = 64;
+
+/// Where samples come from.
+pub(crate) enum Source {
+    Rendered(Renderer),
+    Published(Box<Published>),
+}
+
+/// A published set and how it is divided.
+pub(crate) struct Published {
+    set: PublishedSet,
+    split: PublishedSplit,
+    part: PublishedChoice,
+}
+
+impl Source {
+    /// # Errors
+    /// The files that the recipe names.
+    pub(crate) fn open(recipe: &TrainRecipe) -> Result<Self, TrainError> {
+        let Some(published) = &recipe.published else {
+            return Ok(Self::Rendered(Renderer::new(recipe.scene.clone())?));
+        };
+        let set = PublishedSet::open(&published.folder)?;
+        let split = match published.part {
+            PublishedChoice::Train => set.train_split(recipe.seed)?,
+            PublishedChoice::Search => set.search_split(recipe.seed, SEARCH_SHARE)?,
+        };
+        Ok(Self::Published(Box::new(Published {
+            set,
+            split,
+            part: published.part,
+        })))
+    }
+
+    /// Scene `number`, fit for samples of up to `images` images and `size` pixels.
+    pub(crate) fn scene(
+        &self,
+        recipe: &TrainRecipe,
+        number: u64,
+        images: usize,
+        size: usize,
+        framing: Framing,
+    ) -> Result<Scene, TrainError> {
+        match self {
+            Self::Rendered(renderer) => Ok(match framing {
+                Framing::WholeObject => renderer.whole_scene(number, images, size),
+                Framing::Crop => renderer.crop_scene(number, images, size),
+            }),
+            Self::Published(published) => {
+                let entries = &published.split.train;
+                let entry = &entries[scrambled(number) as usize % entries.len()];
+                published.scene(recipe, entry, number, size, framing)
+            }
+        }
+    }
+
+    /// Whole unseen objects, for validation.
+    pub(crate) fn validation_objects(
+        &self,
+        recipe: &TrainRecipe,
+        pixels: usize,
+    ) -> Result<Vec<Sample>, TrainError> {
+        let count = recipe.validation_objects;
+        let numbers = (0..count as u64).map(|k| VALIDATION_NUMBERS + k);
+        match self {
+            Self::Rendered(renderer) => Ok(numbers
+                .map(|number| {
+                    renderer.sample(number, VALIDATION_IMAGES, pixels, Framing::WholeObject)
+                })
+                .collect()),
+            Self::Published(published) => {
+                let entries = published.split.validation.iter().cycle();
+                let whole = Framing::WholeObject;
+                numbers
+                    .zip(entries)
+                    .map(|(number, entry)| {
+                        let scene = published.scene(recipe, entry, number, pixels, whole)?;
+                        Ok(scene.whole(VALIDATION_IMAGES))
+                    })
+                    .collect()
+            }
+        }
+    }
+}
+
+impl Published {
+    fn scene(
+        &self,
+        recipe: &TrainRecipe,
+        entry: &PublishedEntry,
+        seed: u64,
+        size: usize,
+        framing: Framing,
+    ) -> Result<Scene, TrainError> {
+        let mut object = self.set.read(entry)?;
+        if self.part == PublishedChoice::Search {
+            object = object.resized(SEARCH_SIDE)?;
+        }
+        let crop = (framing == Framing::Crop).then_some(size);
+        if framing == Framing::WholeObject && object.stack.width() > size {
+            object = object.resized(size)?;
+        }
+        let labelled = Labelled {
+            stack: &object.stack,
+            mask: &object.mask,
+            normals: &object.normals,
+            lights: &object.lights,
+        };
+        Ok(Scene::from_photographs(
+            &recipe.scene,
+            seed,
+            labelled,
+            crop,
+        )?)
+    }
+}
+
+/// The finaliser of SplitMix64 (Steele et al. 2014): neighbouring numbers, unrelated entries.
+fn scrambled(number: u64) -> u64 {
+    let mut state = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (state ^ (state >> 31)) >> 8
+}
