@@ -3,6 +3,7 @@ mod jpeg;
 mod optics;
 mod srgb;
 
+use crate::lanes::vectorised;
 use crate::noise::Deviates;
 use crate::random::Random;
 use crate::recipe::CameraRecipe;
@@ -134,7 +135,7 @@ impl Camera {
         let start = random.below(Deviates::COUNT);
         let read = self.read_noise * self.read_noise;
         let shot = self.shot_noise * self.shot_noise;
-        pulp::Arch::new().dispatch(
+        vectorised(
             #[inline(always)]
             || {
                 let mut start = start;
@@ -158,7 +159,7 @@ impl Camera {
 }
 
 fn round_all(values: &mut [f32], steps: f32) {
-    pulp::Arch::new().dispatch(
+    vectorised(
         #[inline(always)]
         || {
             for value in values {

@@ -7,6 +7,17 @@ pub(crate) const LANES: usize = 16;
 
 pub(crate) type Lanes = [f32; LANES];
 
+/// Runs loops with the widest vector instructions the processor has. Whatever `work` calls must be marked
+/// `#[inline(always)]` to be part of it.
+#[inline(always)]
+pub(crate) fn vectorised<T>(work: impl FnOnce() -> T) -> T {
+    #[cfg(test)]
+    if tests::PLAIN.get() {
+        return work();
+    }
+    pulp::Arch::new().dispatch(work)
+}
+
 /// `count` rounded up to whole lanes.
 pub(crate) fn padded(count: usize) -> usize {
     count.next_multiple_of(LANES)
@@ -52,6 +63,28 @@ pub(crate) fn exp(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Framing, Preset, Renderer};
+    use std::cell::Cell;
+
+    thread_local! {
+        /// Whether this thread does without special instructions.
+        pub(super) static PLAIN: Cell<bool> = const { Cell::new(false) };
+    }
+
+    #[test]
+    fn vector_instructions_change_no_bit() {
+        let renderer = Renderer::new(Preset::World.recipe()).unwrap();
+        for number in 0..30 {
+            let samples = [false, true].map(|plain| {
+                PLAIN.set(plain);
+                let samples = [Framing::WholeObject, Framing::Crop]
+                    .map(|framing| renderer.sample(number, 4, 40, framing).images);
+                PLAIN.set(false);
+                samples.map(|images| images.into_iter().map(f32::to_bits).collect::<Vec<_>>())
+            });
+            assert!(samples[0] == samples[1], "sample {number}");
+        }
+    }
 
     #[test]
     fn exponential_is_that_of_the_library() {

@@ -1,4 +1,4 @@
-use crate::lanes::{LANES, Lanes, lanes, lanes_mut};
+use crate::lanes::{LANES, Lanes, lanes, lanes_mut, vectorised};
 use crate::materials::Surfaces;
 use crate::scene::Points;
 use crate::shapes::View;
@@ -77,7 +77,7 @@ impl Bounces {
             return;
         }
         let leaving = self.leaving(surfaces, irradiance);
-        pulp::Arch::new().dispatch(
+        vectorised(
             #[inline(always)]
             || {
                 let mut near = Vec::with_capacity(self.patches.len());

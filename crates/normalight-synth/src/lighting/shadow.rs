@@ -1,5 +1,5 @@
 use super::lamp::Lamp;
-use crate::lanes::{LANES, Lanes, lanes};
+use crate::lanes::{LANES, Lanes, lanes, vectorised};
 use crate::shapes::{View, Window};
 use glam::{Vec2, Vec3};
 
@@ -115,7 +115,7 @@ impl Shadows {
     /// `[height, width]`; 1 where nothing of the object is
     pub(crate) fn lit(&self, lamp: &Lamp) -> Vec<f32> {
         let mut lit = vec![1.0; self.window.width * self.window.height];
-        pulp::Arch::new().dispatch(
+        vectorised(
             #[inline(always)]
             || {
                 for tile in &self.tiles {

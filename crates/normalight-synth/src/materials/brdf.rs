@@ -1,6 +1,6 @@
 use super::measured::{Geometry, Measured};
 use super::surfaces::Surfaces;
-use crate::lanes::{LANES, Lanes, lanes, lanes_mut};
+use crate::lanes::{LANES, Lanes, lanes, lanes_mut, vectorised};
 use crate::lighting::Lamp;
 use crate::scene::Points;
 use std::f32::consts::PI;
@@ -16,7 +16,7 @@ pub(crate) fn shade(
     lit: &[f32],
     planes: &mut [Vec<f32>; 3],
 ) {
-    pulp::Arch::new().dispatch(
+    vectorised(
         #[inline(always)]
         || {
             for start in (0..lit.len()).step_by(LANES) {
