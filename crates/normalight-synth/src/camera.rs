@@ -142,7 +142,7 @@ impl Camera {
                 let mut rest = &mut *light;
                 // Runs of the bank of noise, which is read from any place on and over again.
                 while !rest.is_empty() {
-                    let bank = &deviates.from(start)[..];
+                    let bank = deviates.from(start);
                     let (run, after) = rest.split_at_mut(bank.len().min(rest.len()));
                     for (value, deviate) in run.iter_mut().zip(bank) {
                         let light = *value * gain;

@@ -14,6 +14,6 @@ pub(crate) use surfaces::Surfaces;
 pub(crate) fn surface_for_tests(albedo: f32) -> surfaces::Surface {
     surfaces::Surface {
         albedo: glam::Vec3::splat(albedo),
-        ..surfaces::Surface::default()
+        ..surfaces::Surface::MATTE
     }
 }

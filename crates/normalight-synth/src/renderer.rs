@@ -100,3 +100,37 @@ impl Renderer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MaterialRecipe, Preset};
+
+    /// Measured and modelled substances on one object, patterns and brushing on both.
+    #[test]
+    fn mixtures_of_measured_and_modelled_materials_give_pictures() {
+        let recipe = SceneRecipe {
+            materials: MaterialRecipe {
+                measured_share: 0.5,
+                mixed_share: 1.0,
+                matte_share: 0.0,
+                ..MaterialRecipe::default()
+            },
+            ..Preset::World.recipe()
+        };
+        let renderer = Renderer {
+            recipe,
+            meshes: Vec::new(),
+            measured: (0..8).map(Measured::for_tests).collect(),
+        };
+        for number in 0..60 {
+            let sample = renderer.sample(number, 3, 40, Framing::WholeObject);
+            let inside = sample.mask.iter().filter(|inside| **inside).count();
+            let mean = sample.images.iter().sum::<f32>() / (9 * inside) as f32;
+            // Cameras are exposed for a mean of 0.03 to 0.4; clipped highlights lower it.
+            assert!((1e-3..0.45).contains(&mean), "sample {number}: {mean}");
+            let lit = sample.images.iter().filter(|value| **value > 0.0).count();
+            assert!(lit > inside, "sample {number}: {lit} of {}", 9 * inside);
+        }
+    }
+}

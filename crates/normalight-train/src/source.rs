@@ -13,7 +13,7 @@ const SEARCH_SIDE: usize = 64;
 
 /// Where samples come from.
 pub(crate) enum Source {
-    Rendered(Renderer),
+    Rendered(Box<Renderer>),
     Published(Box<Published>),
 }
 
@@ -29,7 +29,9 @@ impl Source {
     /// The files that the recipe names.
     pub(crate) fn open(recipe: &TrainRecipe) -> Result<Self, TrainError> {
         let Some(published) = &recipe.published else {
-            return Ok(Self::Rendered(Renderer::new(recipe.scene.clone())?));
+            return Ok(Self::Rendered(Box::new(Renderer::new(
+                recipe.scene.clone(),
+            )?)));
         };
         let set = PublishedSet::open(&published.folder)?;
         let split = match published.part {

@@ -88,9 +88,8 @@ impl Setting {
     #[inline(always)]
     fn any_lit(&self, lit: &Lanes) -> bool {
         let mut most = 0.0;
-        for lane in 0..LANES {
-            let light = lit[lane] * self.n_l[lane];
-            most = if light > most { light } else { most };
+        for (lit, cosine) in lit.iter().zip(&self.n_l) {
+            most = max(lit * cosine, most);
         }
         most > 0.0
     }

@@ -103,6 +103,12 @@ impl Measured {
         }
     }
 
+    /// A material of moderate numbers, as fitted networks have them.
+    #[cfg(test)]
+    pub(crate) fn for_tests(seed: u64) -> Self {
+        Self::new(&tests::numbers(seed))
+    }
+
     /// Share of light from all around that is scattered, roughly.
     pub(crate) fn scattered(&self) -> Vec3 {
         self.scattered
@@ -132,6 +138,7 @@ impl Geometry {
     #[inline(always)]
     fn vectors(&self) -> [Lanes; 6] {
         let mut input = [[0.0; LANES]; 6];
+        #[allow(clippy::needless_range_loop)]
         for lane in 0..LANES {
             let height = self.to_half[lane].clamp(-1.0, 1.0);
             let out = (1.0 - height * height).max(1e-8).sqrt();

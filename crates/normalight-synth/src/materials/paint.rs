@@ -91,7 +91,8 @@ impl Substance {
             measured.len() - 1
         });
         let mut surface = match number {
-            Some(_) => Surface::default(),
+            // Without any light of its own.
+            Some(_) => Surface::MATTE,
             None => modelled(recipe, random),
         };
         surface.axis = random.direction();
@@ -139,8 +140,7 @@ fn modelled(recipe: &MaterialRecipe, random: &mut Random) -> Surface {
     let alpha = rough(recipe, random);
     let mut surface = Surface {
         alphas: [alpha; 2],
-        wide_alpha: 1.0,
-        ..Surface::default()
+        ..Surface::MATTE
     };
     if random.chance(recipe.metal_share) {
         surface.f0 = metal_colour(random);

@@ -8,7 +8,7 @@ use glam::Vec3;
 ///
 /// Light is measured so that white matte paper facing a lamp of intensity 1 has the value 1: the
 /// reflectance function times pi times the cosine.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Surface {
     /// Share of light scattered diffusely.
     pub(crate) albedo: Vec3,
@@ -34,6 +34,20 @@ pub(crate) struct Surface {
 pub(crate) const MAX_SUBSTANCES: usize = 3;
 
 impl Surface {
+    /// Black, without highlights; their widths are harmless rather than zero, because they are computed
+    /// wherever any point of the object shines.
+    pub(crate) const MATTE: Self = Self {
+        albedo: Vec3::ZERO,
+        facet_variance: 0.0,
+        f0: Vec3::ZERO,
+        alphas: [1.0; 2],
+        wide_alpha: 1.0,
+        weights: [0.0; 2],
+        sheen: 0.0,
+        axis: Vec3::Y,
+        measured: [Vec3::ZERO; MAX_SUBSTANCES],
+    };
+
     /// Everything in between: `share` of `other`, the rest of `self`.
     pub(crate) fn mixed(&self, other: &Self, share: f32) -> Self {
         let mix = |a: f32, b: f32| a + (b - a) * share;

@@ -20,7 +20,7 @@ fn brute_force(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) ->
         .map(|to| {
             let (place, normal) = (points.places[to], points.normals[to]);
             let mut sum = 0.0f64;
-            for from in 0..points.count() {
+            for (from, arriving) in irradiance.iter().enumerate().take(points.count()) {
                 let between = points.places[from] - place;
                 let (out, back) = (between.dot(normal), -between.dot(points.normals[from]));
                 if out <= 0.0 || back <= 0.0 || !visible(place, points.places[from]) {
@@ -29,7 +29,7 @@ fn brute_force(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) ->
                 let area = window.pitch * window.pitch / points.normals[from].z;
                 let square = between.length_squared();
                 let exchange = out * back * area / (square * (PI * square + area));
-                sum += f64::from(exchange * albedo * irradiance[from]);
+                sum += f64::from(exchange * albedo * arriving);
             }
             albedo * sum as f32
         })
@@ -106,9 +106,8 @@ fn patches_come_near_the_brute_force() {
     // A valley whose walls face each other, and a bumpy ground.
     let valley = |x: f32, _: f32| x.abs();
     let bumps = |x: f32, y: f32| 0.25 * (5.0 * x).sin() * (4.0 * y).cos();
-    let scenes: [(&str, Box<dyn Fn(f32, f32) -> f32>); 2] =
-        [("valley", Box::new(valley)), ("bumps", Box::new(bumps))];
-    for (name, height) in scenes {
+    type Height<'a> = &'a dyn Fn(f32, f32) -> f32;
+    for (name, height) in [("valley", &valley as Height), ("bumps", &bumps)] {
         let (mut depth, mut normals) = (Vec::new(), Vec::new());
         for pixel in 0..side * side {
             let (x, y) = (window.x(pixel % side), window.y(pixel / side));

@@ -55,10 +55,8 @@ fn mirror(alphas: [f32; 2]) -> Surface {
     Surface {
         f0: Vec3::ONE,
         alphas,
-        wide_alpha: 1.0,
         weights: [1.0, 0.0],
-        axis: Vec3::Y,
-        ..Surface::default()
+        ..Surface::MATTE
     }
 }
 
@@ -76,7 +74,7 @@ fn directional_albedo(surface: Surface, to_camera: Vec3) -> f64 {
 fn matte_surfaces_follow_the_cosine_and_return_their_albedo() {
     let surface = Surface {
         albedo: Vec3::new(0.5, 0.25, 1.0),
-        ..Surface::default()
+        ..Surface::MATTE
     };
     let normal = Vec3::new(0.0, 0.6, 0.8);
     let lamp = Vec3::new(0.48, 0.64, 0.6);
@@ -98,7 +96,7 @@ fn rough_facets_give_the_published_formula() {
     let surface = Surface {
         albedo: Vec3::splat(0.8),
         facet_variance: variance as f32,
-        ..Surface::default()
+        ..Surface::MATTE
     };
     for (lamp_polar, view_polar, azimuth) in [(0.3, 0.9, 0.4), (1.1, 0.2, 2.5), (0.8, 0.8, 0.0)] {
         let vector = |polar: f64, azimuth: f64| {

@@ -63,8 +63,7 @@ fn ours(material: &Measured, lamp: glam::DVec3, camera: glam::DVec3) -> [f64; 3]
         .map(|lanes| f64::from(lanes[7]))
 }
 
-/// A material of moderate numbers, as fitted networks have them.
-fn numbers(seed: u64) -> Vec<f32> {
+pub(super) fn numbers(seed: u64) -> Vec<f32> {
     let mut random = Random::new(seed, Stream::Material);
     (0..NUMBERS).map(|_| random.signed(0.4)).collect()
 }
