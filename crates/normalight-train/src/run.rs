@@ -68,6 +68,17 @@ pub fn train(
     }
 }
 
+/// Whether the run in the folder, if any, was validated on the same objects.
+fn same_objects(folder: &Path, recipe: &TrainRecipe) -> bool {
+    let before = std::fs::read_to_string(folder.join("recipe.toml")).ok();
+    let Some(before) = before.and_then(|text| TrainRecipe::parse("recipe.toml", &text).ok()) else {
+        return true;
+    };
+    before.scene == recipe.scene
+        && before.published == recipe.published
+        && before.validation_objects == recipe.validation_objects
+}
+
 fn train_task<T: Task>(
     run: &TrainRun,
     device: &Device,
@@ -95,6 +106,10 @@ fn train_task<T: Task>(
         (fresh, Adam::default(), standing, Vec::new())
     };
     points.retain(|point| point.step <= standing.step);
+    if !same_objects(&run.folder, recipe) {
+        // Errors on other objects cannot be compared.
+        standing.best = f32::INFINITY;
+    }
     save_recipe(&run.folder, recipe)?;
     let pixels = match recipe.network {
         Network::Light => recipe.size,

@@ -45,3 +45,36 @@ fn a_resumed_run_continues_and_leaves_weights() {
         assert!(run(folder.path(), network, size, 8, 0).is_empty());
     }
 }
+
+#[test]
+fn a_run_that_goes_on_with_other_objects_forgets_its_best() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), "normal", 16, 4, 0);
+    for (scene, forgotten) in [("world", false), ("classic", true)] {
+        let text = format!(
+            "network = \"normal\"\nsteps = 9\nsize = 16\nbatch = 2\nimages = [3, 4]\n\
+             validate_every = 100\nvalidation_objects = 1\n[scene]\npreset = \"{scene}\"\n"
+        );
+        let again = TrainRun {
+            recipe: TrainRecipe::parse("recipe.toml", &text).unwrap(),
+            folder: folder.path().to_owned(),
+            resume: true,
+        };
+        let mut best = None;
+        train(&again, &Device::flex(), |report| {
+            best = Some(report.best);
+            ControlFlow::Break(())
+        })
+        .unwrap();
+        assert_eq!(best.unwrap().is_infinite(), forgotten, "{scene}");
+    }
+}
+
+/// The recipes that come with the project.
+#[test]
+fn shipped_recipes_are_sound() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/recipes");
+    for name in ["light.toml", "normal.toml"] {
+        TrainRecipe::read(&folder.join(name)).unwrap();
+    }
+}
