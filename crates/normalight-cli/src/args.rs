@@ -194,7 +194,7 @@ Examples:
 /// Materials and shapes from files of the user's.
 #[derive(Debug, Args)]
 pub(crate) struct LibraryArgs {
-    /// Measured materials: an .npz file of fitted networks with `names` and `W`.
+    /// Measured materials: an .npz file of fitted networks, `W` of [materials, 675].
     ///
     /// Seven in ten materials then come from it, if the recipe says nothing else.
     #[arg(long, value_name = "FILE")]

@@ -6,7 +6,7 @@ use crate::Outcome;
 use crate::args::RenderArgs;
 use crate::terminal::{note, print};
 use crate::{interrupt, progress, scenes};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use normalight_io::{
     ObjectToPublish, OutputFolder, PublishedEntry, PublishedPart, PublishedWriter, photograph_png,
 };
@@ -24,6 +24,8 @@ const VALIDATION_EVERY: u64 = 100;
 const SHEET_STACKS: usize = 32;
 /// Stacks rendered before the finished ones are written, for each thread.
 const AHEAD: usize = 2;
+/// Most memory for the stacks in work.
+const MOST_BYTES: u64 = 2_000_000_000;
 
 /// Renders, writes and describes stacks.
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
@@ -33,57 +35,118 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
         Some(folder) => Some(PublishedWriter::create(folder)?),
         None => None,
     };
-    let mut sheet = args.sheet.then(|| Sheet::new(args.size as usize));
-    let mut statistics = args.stats.then(Statistics::default);
+    check_size(args)?;
     let bar = progress::bar(
         args.count.into(),
         "[{bar:30}] {pos}/{len} stacks  {eta} left",
         args.quiet,
     );
-    let numbers: Vec<u64> = (args.first..args.first + u64::from(args.count)).collect();
-    let mut written = 0;
-    for numbers in numbers.chunks(AHEAD * rayon::current_num_threads()) {
-        let samples: Vec<Sample> = numbers
-            .par_iter()
-            .map(|&number| sample(&renderer, args, number))
-            .collect();
-        for (&number, sample) in numbers.iter().zip(&samples) {
+    let end = args
+        .first
+        .checked_add(args.count.into())
+        .context("--first and --count: numbers end at 18446744073709551615")?;
+    let mut done = Stacks {
+        written: 0,
+        sheet: args.sheet.then(|| Sheet::new(args.size as usize)),
+        statistics: args.stats.then(Statistics::default),
+    };
+    let worked: Result<()> = (args.first..end)
+        .step_by(ahead(args))
+        .try_for_each(|first| {
             if interrupt::asked() {
-                break;
+                return Ok(());
             }
-            if let Some(writer) = &mut writer {
-                write(writer, args, number, sample)?;
+            let numbers = first..end.min(first + ahead(args) as u64);
+            let samples: Vec<Sample> = numbers
+                .clone()
+                .into_par_iter()
+                .map(|number| sample(&renderer, args, number))
+                .collect();
+            for (number, sample) in numbers.zip(&samples) {
+                done.take(args, writer.as_mut(), number, sample)?;
+                bar.inc(1);
             }
-            if let Some(sheet) = &mut sheet
-                && sheet.len() < SHEET_STACKS
-            {
-                sheet.add(sample);
-            }
-            if let Some(statistics) = &mut statistics {
-                statistics.add(sample)?;
-            }
-            written += 1;
-            bar.inc(1);
-        }
-    }
+            Ok(())
+        });
     bar.finish_and_clear();
-    // An interrupted run leaves whole stacks and lists of them.
-    if let Some(writer) = writer {
-        writer.finish()?;
-    }
-    if let (Some(sheet), Some(folder)) = (sheet, &args.out) {
-        write_sheet(folder, &sheet)?;
+    // An interrupted or failed run leaves whole stacks and lists of them.
+    let listed = match writer {
+        Some(writer) if worked.is_ok() || done.written > 0 => writer.finish(),
+        _ => Ok(()),
+    };
+    worked.and(listed.map_err(anyhow::Error::from))?;
+    if let (Some(sheet), Some(folder)) = (&done.sheet, &args.out) {
+        write_sheet(folder, sheet)?;
     }
     if interrupt::asked() {
         return Ok(Outcome::Interrupted);
     }
-    if let Some(statistics) = statistics {
+    if let Some(statistics) = &done.statistics {
         print(&statistics.to_text(args.compare.as_deref())?)?;
     }
     if let (Some(folder), false) = (&args.out, args.quiet) {
-        note(&format!("{written} stacks in {}", folder.display()));
+        note(&format!("{} stacks in {}", done.written, folder.display()));
     }
     Ok(Outcome::Done)
+}
+
+/// What becomes of the stacks.
+struct Stacks {
+    written: usize,
+    sheet: Option<Sheet>,
+    statistics: Option<Statistics>,
+}
+
+impl Stacks {
+    fn take(
+        &mut self,
+        args: &RenderArgs,
+        writer: Option<&mut PublishedWriter>,
+        number: u64,
+        sample: &Sample,
+    ) -> Result<()> {
+        if let Some(writer) = writer {
+            write(writer, args, number, sample)?;
+        }
+        if let Some(sheet) = &mut self.sheet
+            && sheet.len() < SHEET_STACKS
+        {
+            sheet.add(sample);
+        }
+        if let Some(statistics) = &mut self.statistics {
+            statistics
+                .add(sample)
+                .with_context(|| format!("stack {number}"))?;
+        }
+        self.written += 1;
+        Ok(())
+    }
+}
+
+/// Bytes of one stack in memory.
+fn bytes(args: &RenderArgs) -> u64 {
+    u64::from(args.images) * 3 * u64::from(args.size) * u64::from(args.size) * 4
+}
+
+/// Stacks rendered together.
+fn ahead(args: &RenderArgs) -> usize {
+    let wanted = AHEAD * rayon::current_num_threads();
+    // The light of every lamp is held beside the photographs.
+    let affordable = MOST_BYTES / (2 * bytes(args));
+    wanted.min(affordable.max(1) as usize)
+}
+
+fn check_size(args: &RenderArgs) -> Result<()> {
+    if 2 * bytes(args) > MOST_BYTES {
+        bail!(
+            "{} images of {} pixels a side take {:.1} GB in memory, at most {:.1} GB are allowed",
+            args.images,
+            args.size,
+            2e-9 * bytes(args) as f64,
+            1e-9 * MOST_BYTES as f64
+        );
+    }
+    Ok(())
 }
 
 fn sample(renderer: &Renderer, args: &RenderArgs, number: u64) -> Sample {

@@ -13,6 +13,8 @@ use srgb::SrgbCodes;
 
 /// Below this mean a scene is not darkened any further to save its highlights.
 const DARKEST_MEAN: f32 = 0.02;
+/// Longest run of the bank of noise that is used at a time.
+const RUN: usize = 2048;
 /// Images are out of register by no more than this, in pixels.
 const FURTHEST_SHIFT: f32 = 2.0;
 
@@ -132,18 +134,16 @@ impl Camera {
 
     fn expose(&self, light: &mut [f32], gain: f32, random: &mut Random) {
         let deviates = Deviates::shared();
-        let start = random.below(Deviates::COUNT);
         let read = self.read_noise * self.read_noise;
         let shot = self.shot_noise * self.shot_noise;
         vectorised(
             #[inline(always)]
             || {
-                let mut start = start;
                 let mut rest = &mut *light;
-                // Runs of the bank of noise, which is read from any place on and over again.
+                // Runs of the bank of noise, each from another place.
                 while !rest.is_empty() {
-                    let bank = deviates.from(start);
-                    let (run, after) = rest.split_at_mut(bank.len().min(rest.len()));
+                    let bank = deviates.from(random.below(Deviates::COUNT));
+                    let (run, after) = rest.split_at_mut(bank.len().min(rest.len()).min(RUN));
                     for (value, deviate) in run.iter_mut().zip(bank) {
                         let light = *value * gain;
                         let noisy = light + deviate * (read + shot * light).sqrt();
@@ -151,7 +151,6 @@ impl Camera {
                         *value = if noisy < 1.0 { noisy } else { 1.0 };
                     }
                     rest = after;
-                    start = 0;
                 }
             },
         );

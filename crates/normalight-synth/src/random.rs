@@ -76,7 +76,9 @@ impl Random {
             }
             rest -= weight;
         }
-        weights.len() - 1
+        // Rounding may leave a rest: never an index of no weight.
+        let last = weights.iter().rposition(|&weight| weight > 0.0);
+        last.unwrap_or(weights.len() - 1)
     }
 
     /// Uniform on the unit sphere.
@@ -117,4 +119,25 @@ pub(crate) fn about_y(angle: f32) -> Mat3 {
 pub(crate) fn about_z(angle: f32) -> Mat3 {
     let (sin, cos) = (libm::sinf(angle), libm::cosf(angle));
     Mat3::from_cols(Vec3::new(cos, sin, 0.0), Vec3::new(-sin, cos, 0.0), Vec3::Z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_of_no_weight_is_drawn() {
+        let weights = [0.12, 0.33, 0.72, 0.71, 0.94, 0.42, 0.0];
+        let mut random = Random::new(1, Stream::Shape);
+        let mut counts = [0u32; 7];
+        for _ in 0..30_000 {
+            counts[random.weighted(&weights)] += 1;
+        }
+        assert_eq!(counts[6], 0);
+        for (count, weight) in counts.iter().zip(weights) {
+            let expected = 30_000.0 * weight / 3.24;
+            assert!((*count as f32 - expected).abs() < 0.06 * expected + 1.0);
+        }
+        assert_eq!(random.weighted(&[0.0, 1.0, 0.0]), 1);
+    }
 }

@@ -113,8 +113,8 @@ pub struct MaterialRecipe {
     /// Share of materials that are measured ones from `measured_file`; the shares above apply to the
     /// rest.
     pub measured_share: f32,
-    /// Measured materials as small networks: an `.npz` file with `names` and `W` (`[materials, 675]`,
-    /// f32); needed when `measured_share` is positive.
+    /// Measured materials as small networks: an `.npz` file with `W` (`[materials, 675]`, f32, in the
+    /// order of C); needed when `measured_share` is positive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured_file: Option<PathBuf>,
     /// Share of the objects made of two or three materials.
@@ -169,7 +169,8 @@ pub struct LightRecipe {
     pub path: f32,
     /// Half width of the rectangle in degrees, 1..=85.
     pub rectangle_degrees: f32,
-    /// Radius of the cap in degrees, `[low, high]` in 1..=85.
+    /// Radius of the cap in degrees, `[low, high]` in 1..=85; domes and paths keep within it, too, but for
+    /// the few degrees by which hands err.
     pub cap_degrees: [f32; 2],
     /// Angle between ring and viewing axis in degrees, `[low, high]` in 1..=85.
     pub ring_degrees: [f32; 2],
@@ -250,7 +251,8 @@ pub struct CameraRecipe {
     pub mean: [f32; 2],
     /// Share of scenes exposed without regard to highlights, which then clip at 1.
     pub clip_share: f32,
-    /// Noise in the dark and relative noise at full scale, `[low, high]` in 0..=0.2, log-uniform.
+    /// Relative noise at full scale, `[low, high]` in 0..=0.2, log-uniform; noise in the dark is a 4th to a
+    /// 50th of it.
     pub noise: [f32; 2],
     /// Share of scenes stored in 8 linear bits.
     pub linear_8_bit_share: f32,

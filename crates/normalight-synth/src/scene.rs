@@ -14,7 +14,7 @@ use crate::materials::{Measured, Paint, Surfaces, shade};
 use crate::random::{Random, Stream};
 use crate::recipe::{SceneRecipe, TransportRecipe};
 use crate::sample::Sample;
-use crate::shapes::{Mesh, View, object};
+use crate::shapes::{Mesh, Object, View, object};
 use crops::Crops;
 use framing::frame;
 use symmetry::Symmetry;
@@ -23,7 +23,9 @@ use symmetry::Symmetry;
 const MIN_COVER: f32 = 0.4;
 /// Scenes are drawn larger by this factor until crops can show enough of slender objects.
 const NEARER: f32 = 1.35;
-/// Largest side of a scene that crops are cut from.
+/// Objects drawn until one is seen.
+const MOST_ATTEMPTS: usize = 16;
+/// Up to this side scenes are drawn larger for that.
 const LARGEST_SIDE: usize = 640;
 
 /// What the drawing of a scene starts from.
@@ -62,28 +64,41 @@ pub struct Scene {
 impl Scene {
     /// The whole object in a square of `side` pixels.
     pub(crate) fn of_whole(stage: &Stage, lamps: usize, side: usize) -> Self {
-        let mut random = Random::new(stage.seed, Stream::Shape);
-        let object = object(&stage.recipe.shapes, stage.meshes, &mut random);
-        let mut random = Random::new(stage.seed, Stream::Framing);
-        let view = frame(&object, &stage.recipe.shapes, &mut random, side);
+        let random = Random::new(stage.seed, Stream::Framing);
+        let (object, view) = Self::draw(stage, &random, side);
         Self::render(stage, view, None, lamps, object.reach())
     }
 
     /// An object large enough to cut crops of `size` pixels from.
     pub(crate) fn for_crops(stage: &Stage, lamps: usize, size: usize) -> Self {
-        let mut random = Random::new(stage.seed, Stream::Shape);
-        let object = object(&stage.recipe.shapes, stage.meshes, &mut random);
         let [low, high] = stage.recipe.shapes.crop_object_pixels;
         let mut random = Random::new(stage.seed, Stream::Framing);
         let mut side = (random.log_range(low, high) as usize).max(size);
+        let largest = LARGEST_SIDE.max(size);
+        let (object, mut view) = Self::draw(stage, &random, side);
         loop {
-            let mut random = random.clone();
-            let view = frame(&object, &stage.recipe.shapes, &mut random, side);
             let crops = Crops::new(&view, size);
-            if crops.best_cover() >= MIN_COVER || side >= LARGEST_SIDE.max(size) {
+            if crops.best_cover() >= MIN_COVER || side >= largest {
                 return Self::render(stage, view, Some(crops), lamps, object.reach());
             }
-            side = (side as f32 * NEARER) as usize;
+            side = ((side as f32 * NEARER) as usize).min(largest);
+            view = frame(&object, &stage.recipe.shapes, &mut random.clone(), side);
+        }
+    }
+
+    /// An object of which something is seen: a flat mesh may stand edge-on, then another one is drawn.
+    fn draw<'a>(stage: &Stage<'a>, framing: &Random, side: usize) -> (Object<'a>, View) {
+        let shapes = &stage.recipe.shapes;
+        let mut random = Random::new(stage.seed, Stream::Shape);
+        let mut attempts = 0;
+        loop {
+            let object = object(shapes, stage.meshes, &mut random);
+            let view = frame(&object, shapes, &mut framing.clone(), side);
+            attempts += 1;
+            let seen = (0..view.depth.len()).any(|pixel| view.is_inside(pixel));
+            if seen || attempts == MOST_ATTEMPTS {
+                return (object, view);
+            }
         }
     }
 

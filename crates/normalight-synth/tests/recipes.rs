@@ -83,6 +83,8 @@ fn numbers_out_of_range_say_what_is_expected() {
         message("[sampling]\ncrops_per_scene = 33\n"),
         "sampling.crops_per_scene: 33 found, 1..=32 expected"
     );
+    let shares = "[lights]\nequal_share = 0.8\nmild_share = 0.8\n";
+    assert!(message(shares).contains("at most 1 expected"));
     let shares = "[camera]\nlinear_8_bit_share = 0.9\nsrgb_8_bit_share = 0.9\n";
     assert!(message(shares).contains("at most 1 expected"));
 }

@@ -183,9 +183,11 @@ impl TrainRecipe {
             source,
         })?;
         let mut recipe = Self::parse(&path.display().to_string(), &text)?;
-        recipe
-            .scene
-            .resolve_paths(path.parent().unwrap_or(Path::new("")));
+        let folder = path.parent().unwrap_or(Path::new(""));
+        recipe.scene.resolve_paths(folder);
+        if let Some(published) = &mut recipe.published {
+            published.folder = folder.join(&published.folder);
+        }
         Ok(recipe)
     }
 
@@ -200,6 +202,20 @@ impl TrainRecipe {
         })?;
         recipe.validate()?;
         Ok(recipe)
+    }
+
+    /// Scenes of a batch and validation objects are held in memory.
+    fn check_memory(&self) -> Result<(), TrainError> {
+        const EXPECTED: &str = "at most 16";
+        let lights = self.scene.sampling.lights_per_scene.max(self.images[1]);
+        let pixels = f64::from(self.scene.shapes.crop_object_pixels[1]).max(self.size as f64);
+        let scenes = (self.batch * lights * 12) as f64 * pixels * pixels / 1e9;
+        let field = "gigabytes of scenes (batch, scene.sampling.lights_per_scene, \
+                     scene.shapes.crop_object_pixels)";
+        check(field, scenes, 0.0, 16.0, EXPECTED)?;
+        let objects = (self.validation_objects * 144) as f64 * (self.size * self.size) as f64 / 1e9;
+        let field = "gigabytes of validation_objects";
+        check(field, objects, 0.0, 16.0, EXPECTED)
     }
 
     /// Checks every number.
@@ -228,6 +244,9 @@ impl TrainRecipe {
             many,
             "1 or more",
         )?;
+        // More would not leave room for the steps in the seeds of samples.
+        check("seed", self.seed, 0, (1 << 20) - 1, "0 to 1048575")?;
+        self.check_memory()?;
         let field = "validation_objects";
         check(field, self.validation_objects, 1, 10_000, "1 to 10000")?;
         check(

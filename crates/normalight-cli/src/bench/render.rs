@@ -39,11 +39,8 @@ struct Case {
 
 /// Runs both cases.
 pub(crate) fn run(args: &BenchRenderArgs) -> Result<Outcome> {
-    if !(args.seconds > 0.0 && args.seconds <= 3600.0) {
-        bail!(
-            "--seconds: {} found, more than 0 and at most 3600 expected",
-            args.seconds
-        );
+    if !(args.seconds >= 0.01 && args.seconds <= 3600.0) {
+        bail!("--seconds: {} found, 0.01 to 3600 expected", args.seconds);
     }
     let renderer = scenes::renderer(&args.recipe, &args.library)?;
     let threads = match args.threads {

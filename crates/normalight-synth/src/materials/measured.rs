@@ -63,6 +63,9 @@ impl Measured {
         if shape.len() != 2 || shape[1] != NUMBERS as u64 || !(1..=MOST).contains(&shape[0]) {
             return Err(wrong(format!("W of shape {shape:?}")));
         }
+        if array.order() != npyz::Order::C {
+            return Err(wrong("W in the order of Fortran".to_owned()));
+        }
         let numbers: Vec<f32> = array
             .data()
             .map_err(|error| wrong(format!("W with other numbers ({error})")))?

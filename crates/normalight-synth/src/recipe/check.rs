@@ -149,6 +149,13 @@ impl SceneRecipe {
         number(field, lights.shift_degrees, 0.0, 45.0, "0..=45 degrees")?;
         share("lights.equal_share", lights.equal_share)?;
         share("lights.mild_share", lights.mild_share)?;
+        number(
+            "lights.equal_share + mild_share",
+            lights.equal_share + lights.mild_share,
+            0.0,
+            1.0 + 1e-5,
+            "at most 1",
+        )?;
         let expected = "[low, high] with 0.01 <= low <= high <= 100";
         range("lights.intensity", lights.intensity, 0.01, 100.0, expected)?;
         share("lights.colour_share", lights.colour_share)?;

@@ -13,8 +13,19 @@ pub(crate) struct Mesh {
 impl Mesh {
     pub(crate) fn new(mesh: &TriangleMesh) -> Self {
         let (low, high) = mesh.bounds();
-        let middle = 0.5 * (low + high);
-        let positions = mesh.positions().iter().map(|&place| place - middle);
+        // By their size first, so that no square overflows.
+        let size = (high * 0.5 - low * 0.5).max_element();
+        let middle = low * 0.5 + high * 0.5;
+        let within = |place: Vec3| (place - middle) / size.max(f32::MIN_POSITIVE);
+        // Vertices that no triangle uses may lie anywhere; they are never drawn.
+        let positions = mesh.positions().iter().map(|&place| {
+            let place = within(place);
+            if place.abs().max_element() <= 1.001 {
+                place
+            } else {
+                Vec3::ZERO
+            }
+        });
         let positions: Vec<Vec3> = positions.collect();
         let reach = positions.iter().map(|p| p.length()).fold(0.0f32, f32::max);
         let scale = 1.0 / reach.max(f32::MIN_POSITIVE);
@@ -98,7 +109,7 @@ impl PosedMesh<'_> {
             depth => height(depth),
         });
         let normals = hits.iter().enumerate().map(|(pixel, hit)| match hit {
-            Some(hit) => self.normal(hit, window.ray(pixel).to_camera()),
+            Some(hit) => self.normal(hit, &window, window.ray(pixel).to_camera()),
             None => Vec3::ZERO,
         });
         View::from_planes(
@@ -110,11 +121,16 @@ impl PosedMesh<'_> {
     }
 
     /// Of the side that is seen.
-    fn normal(&self, hit: &Hit, to_camera: Vec3) -> Vec3 {
+    fn normal(&self, hit: &Hit, window: &Window, to_camera: Vec3) -> Vec3 {
         let triangle = self.mesh.triangles[hit.triangle as usize].map(|corner| corner as usize);
-        let [a, b, c] = triangle.map(|corner| self.mesh.normals[corner]);
         let [u, v] = hit.weights;
-        let smooth = self.rotation * (a * (1.0 - u - v) + b * u + c * v);
+        // Weights of the picture count for less where a triangle is nearer to the camera.
+        let mut smooth = Vec3::ZERO;
+        for (corner, weight) in triangle.into_iter().zip([1.0 - u - v, u, v]) {
+            let shrink = 1.0 - self.places[corner].z * window.inverse_distance;
+            smooth += self.mesh.normals[corner] * (weight / shrink);
+        }
+        let smooth = self.rotation * smooth;
         let [a, b, c] = triangle.map(|corner| self.places[corner]);
         let flat = (b - a).cross(c - a);
         // The mesh's own orientation tells which side of the smooth normal belongs to the camera.
@@ -223,5 +239,56 @@ mod tests {
             // Seen along its axis a torus is symmetric to the plane z = 0.
             assert!((view.depth[pixel] + view.back[pixel]).abs() < 0.03);
         }
+    }
+
+    #[test]
+    fn vertices_that_nothing_uses_change_nothing() {
+        let mesh = torus(20, 10);
+        let mut positions = mesh.positions().to_vec();
+        positions.push(Vec3::new(1e3, 0.0, 0.0));
+        let stray = TriangleMesh::new(positions, mesh.triangles().to_vec()).unwrap();
+        let [one, two] = [mesh, stray].map(|mesh| {
+            let mesh = Mesh::new(&mesh);
+            mesh.posed(Mat3::IDENTITY).view(window(0.0)).depth
+        });
+        assert_eq!(one, two);
+    }
+
+    /// Few large triangles, seen from nearby: a sphere whose smooth normals follow its flat faces' places
+    /// in space, not in the picture.
+    #[test]
+    fn normals_run_evenly_over_a_slanted_triangle() {
+        let corners = [
+            Vec3::new(-0.8, -0.4, -0.5),
+            Vec3::new(0.8, -0.4, 0.5),
+            Vec3::new(0.0, 0.6, 0.0),
+        ];
+        let mesh = TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
+        let mut mesh = Mesh::new(&mesh);
+        let normals = [
+            Vec3::new(-0.5, 0.0, 0.8),
+            Vec3::new(0.5, 0.0, 0.8),
+            Vec3::new(0.0, 0.5, 0.8),
+        ];
+        mesh.normals = normals.to_vec();
+        let posed = mesh.posed(Mat3::IDENTITY);
+        let [a, b, c] = [0, 1, 2].map(|corner| posed.places[corner]);
+        let window = window(0.35);
+        let view = posed.view(window);
+        let mut seen = 0;
+        for pixel in (0..80 * 80).filter(|&pixel| view.is_inside(pixel)) {
+            // Weights by areas in space.
+            let place = window.ray(pixel).at(view.depth[pixel]);
+            let whole = (b - a).cross(c - a).length();
+            let u = (place - a).cross(c - a).length() / whole;
+            let v = (b - a).cross(place - a).length() / whole;
+            let expected = normals[0] * (1.0 - u - v) + normals[1] * u + normals[2] * v;
+            let degrees = view.normals[pixel]
+                .angle_between(expected.normalize())
+                .to_degrees();
+            assert!(degrees < 0.3, "{degrees} degrees");
+            seen += 1;
+        }
+        assert!(seen > 300, "{seen}");
     }
 }

@@ -165,6 +165,18 @@ fn other_files_are_told_apart() {
         "{}",
         message(&broken)
     );
+    let mut turned = array(2, 675, 0.1);
+    let place = turned
+        .windows(5)
+        .position(|bytes| bytes == b"False")
+        .unwrap();
+    turned.splice(place..place + 5, *b"True ");
+    let turned = archive("W.npy", &turned);
+    assert!(
+        message(&turned).contains("order of Fortran"),
+        "{}",
+        message(&turned)
+    );
     let cut = archive("W.npy", &array(3, 675, 0.1)[..4000]);
     assert!(Measured::read(cut.path()).is_err());
     let missing = Measured::read(Path::new("nowhere/merl.npz")).unwrap_err();
