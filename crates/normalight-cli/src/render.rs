@@ -52,10 +52,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
     };
     let worked: Result<()> = (args.first..end)
         .step_by(ahead(args))
+        .take_while(|_| !interrupt::asked())
         .try_for_each(|first| {
-            if interrupt::asked() {
-                return Ok(());
-            }
             let numbers = first..end.min(first + ahead(args) as u64);
             let samples: Vec<Sample> = numbers
                 .clone()

@@ -22,6 +22,7 @@ mod scene;
 mod shapes;
 
 pub use error::SynthError;
+pub use random::scrambled;
 pub use recipe::{
     CameraRecipe, LightRecipe, MaterialRecipe, Preset, SamplingRecipe, SceneRecipe, ShapeRecipe,
     TransportRecipe,

@@ -14,18 +14,23 @@ pub(crate) enum Stream {
     Crop,
 }
 
+/// A number without any visible relation to those of its neighbours: the step and the finaliser of
+/// SplitMix64 (Steele et al. 2014).
+pub fn scrambled(number: u64) -> u64 {
+    let mut state = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    state ^ (state >> 31)
+}
+
 /// Random numbers that are the same on every machine.
 #[derive(Debug, Clone)]
 pub(crate) struct Random(Pcg32);
 
 impl Random {
     pub(crate) fn new(seed: u64, stream: Stream) -> Self {
-        // Neighbouring seeds must not give neighbouring states: mixed by an odd multiplier and
-        // shifts (the finaliser of SplitMix64, Steele et al. 2014).
-        let mut state = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        Self(Pcg32::new(state ^ (state >> 31), stream as u64))
+        // Neighbouring seeds must not give neighbouring states.
+        Self(Pcg32::new(scrambled(seed), stream as u64))
     }
 
     /// Uniform in [0, 1), 24 bits.
@@ -79,6 +84,18 @@ impl Random {
         // Rounding may leave a rest: never an index of no weight.
         let last = weights.iter().rposition(|&weight| weight > 0.0);
         last.unwrap_or(weights.len() - 1)
+    }
+
+    /// The first `count` of the numbers 0..total in a random order.
+    pub(crate) fn some_of(&mut self, total: usize, count: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..total).collect();
+        let count = count.min(total);
+        for place in 0..count {
+            let other = place + self.below(total - place);
+            order.swap(place, other);
+        }
+        order.truncate(count);
+        order
     }
 
     /// Uniform on the unit sphere.

@@ -169,15 +169,8 @@ impl Scene {
         let mut random = Random::new(seed, Stream::Crop);
         let place = crops.draw(&mut random, MIN_COVER);
         let symmetry = Symmetry::draw(&mut random);
-        // The first of a random order of the lamps.
-        let mut order: Vec<usize> = (0..self.lamps.len()).collect();
-        let images = images.min(order.len());
-        for place in 0..images {
-            let other = place + random.below(order.len() - place);
-            order.swap(place, other);
-        }
-        order.truncate(images);
-        self.photograph(&order, place, crops.size(), symmetry, &mut random)
+        let chosen = random.some_of(self.lamps.len(), images);
+        self.photograph(&chosen, place, crops.size(), symmetry, &mut random)
     }
 
     fn photograph(

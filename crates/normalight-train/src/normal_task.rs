@@ -5,7 +5,7 @@ use burn::tensor::{Device, Tensor, TensorData};
 use glam::{Quat, Vec3};
 use normalight_core::{Light, normal_error};
 use normalight_model::{NormalNetwork, Quiet, Stage, Weights, estimate_normals};
-use normalight_synth::{Framing, Sample};
+use normalight_synth::{Framing, Sample, scrambled};
 use std::collections::BTreeMap;
 
 /// The normal estimation network on crops, with lights that are a little wrong.
@@ -147,6 +147,9 @@ fn disturbed(recipe: &TrainRecipe, lights: &[Light], seed: u64) -> Vec<Light> {
         .collect()
 }
 
+/// What SplitMix64 adds to its state.
+const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
+
 /// A small reproducible source of disturbances (SplitMix64, Steele et al. 2014).
 struct Noise(u64);
 
@@ -156,11 +159,9 @@ impl Noise {
     }
 
     fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut state = self.0;
-        state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((state ^ (state >> 31)) >> 40) as f32 / 16_777_216.0
+        let number = scrambled(self.0);
+        self.0 = self.0.wrapping_add(STEP);
+        (number >> 40) as f32 / 16_777_216.0
     }
 
     /// Strength of this sample's disturbance: from none to twice the recipe's.

@@ -1,7 +1,7 @@
 use crate::recipe::PublishedChoice;
 use crate::{TrainError, TrainRecipe};
 use normalight_io::{PublishedEntry, PublishedSet, PublishedSplit};
-use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene};
+use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene, scrambled};
 
 /// Numbers of validation objects start here, far from any training object.
 const VALIDATION_NUMBERS: u64 = 1 << 40;
@@ -61,7 +61,7 @@ impl Source {
             }),
             Self::Published(published) => {
                 let entries = &published.split.train;
-                let entry = &entries[scrambled(number) as usize % entries.len()];
+                let entry = &entries[(scrambled(number) >> 8) as usize % entries.len()];
                 published.scene(recipe, entry, number, size, framing)
             }
         }
@@ -126,12 +126,4 @@ impl Published {
             crop,
         )?)
     }
-}
-
-/// The finaliser of SplitMix64 (Steele et al. 2014): neighbouring numbers, unrelated entries.
-fn scrambled(number: u64) -> u64 {
-    let mut state = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (state ^ (state >> 31)) >> 8
 }

@@ -37,14 +37,7 @@ pub(crate) fn frame(
     let (x, y, longer) = bounds(&scout).unwrap_or((0.0, 0.0, 1.0));
     let mut longer = longer / (1.0 - 2.0 * margin);
     loop {
-        let window = Window {
-            left: x - longer / 2.0,
-            top: y + longer / 2.0,
-            pitch: longer / side as f32,
-            width: side,
-            height: side,
-            inverse_distance,
-        };
+        let window = Window::square(x, y, longer, side, inverse_distance);
         let view = object.view(window, Detail::All);
         // The coarse scout may have overlooked a thin tip, which must not be cut off; a window that holds
         // everything can only be touched in tiny pictures.

@@ -42,14 +42,7 @@ impl Scene {
             lights,
         } = labelled;
         let side = check(labelled, crop)?;
-        let window = Window {
-            left: 0.0,
-            top: side as f32,
-            pitch: 1.0,
-            width: side,
-            height: side,
-            inverse_distance: 0.0,
-        };
+        let window = Window::square(0.5 * side as f32, 0.5 * side as f32, side as f32, side, 0.0);
         // Depth is not known; what is needed of it here is only where there is any.
         let inside = mask.inside().iter();
         let depth: Vec<f32> = inside
@@ -60,12 +53,7 @@ impl Scene {
         let points = Points::new(&view);
         let pixels: Vec<usize> = points.pixels.iter().map(|&pixel| pixel as usize).collect();
 
-        let mut order: Vec<usize> = (0..lights.len()).collect();
-        let mut random = Random::new(seed, Stream::Lights);
-        for place in 0..order.len() {
-            let other = place + random.below(order.len() - place);
-            order.swap(place, other);
-        }
+        let order = Random::new(seed, Stream::Lights).some_of(lights.len(), lights.len());
         let mut values = vec![[0.0; 3]; pixels.len()];
         let radiance = order.iter().map(|&image| {
             stack.linear_pixels(image, &pixels, &mut values);

@@ -108,7 +108,7 @@ impl Lathe {
 
 /// Larger of two numbers, with the corner rounded over `width`.
 #[inline]
-fn rounded_max(a: f32, b: f32, width: f32) -> f32 {
+pub(crate) fn rounded_max(a: f32, b: f32, width: f32) -> f32 {
     let overlap = (width - (a - b).abs()).max(0.0);
     a.max(b) + overlap * overlap / (4.0 * width)
 }

@@ -196,14 +196,7 @@ mod tests {
     }
 
     fn window(inverse_distance: f32) -> Window {
-        Window {
-            left: -1.1,
-            top: 1.1,
-            pitch: 2.2 / 80.0,
-            width: 80,
-            height: 80,
-            inverse_distance,
-        }
+        Window::square(0.0, 0.0, 2.2, 80, inverse_distance)
     }
 
     #[test]

@@ -112,19 +112,6 @@ impl Part {
     /// The part as it lies pressed into a plate at z = 0: its depth shrunk to `depth` of itself and
     /// its middle moved to the plate. Limbs become long ellipsoids, rings stay as they are.
     pub(crate) fn pressed(&self, depth: f32) -> Self {
-        let squash = |axes: Mat3, radii: Vec3, centre: Vec3| {
-            let centre = Vec3::new(centre.x, centre.y, 0.5 * centre.z * depth);
-            let to_unit = Mat3::from_diagonal(radii.recip()) * axes.transpose();
-            let stretch = Mat3::from_diagonal(Vec3::new(1.0, 1.0, 1.0 / depth));
-            Self {
-                centre,
-                reach: radii.max_element(),
-                form: Form::Ellipsoid {
-                    to_unit: to_unit * stretch,
-                    smallest: radii.min_element() * depth,
-                },
-            }
-        };
         match &self.form {
             Form::Ellipsoid { to_unit, smallest } => Self {
                 centre: Vec3::new(self.centre.x, self.centre.y, 0.5 * self.centre.z * depth),
@@ -141,7 +128,7 @@ impl Part {
                 let y = x.any_orthonormal_vector();
                 let axes = Mat3::from_cols(x, y, x.cross(y));
                 let radii = Vec3::new(0.5 * length + radius, radius, radius);
-                squash(axes, radii, self.centre)
+                Self::ellipsoid(self.centre, radii, axes).pressed(depth)
             }
             Form::Ring { .. } => self.clone(),
         }

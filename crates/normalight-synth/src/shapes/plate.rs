@@ -1,3 +1,4 @@
+use super::lathe::rounded_max;
 use crate::noise::Lattice;
 use crate::random::Random;
 use glam::{Mat3, Vec2, Vec3};
@@ -181,7 +182,7 @@ impl Plate {
             return edge.max(slab - self.highest);
         }
         let front = local.z - self.height(lattice, flat, edge);
-        rounded(edge, front.max(-self.depth() - local.z), 0.03)
+        rounded_max(edge, front.max(-self.depth() - local.z), 0.03)
     }
 
     fn height(&self, lattice: &Lattice, flat: Vec2, edge: f32) -> f32 {
@@ -261,12 +262,6 @@ fn outline(random: &mut Random) -> Outline {
         Vec2::new(half.y, half.x)
     };
     Outline::Rectangle(half, random.log_range(0.02, 0.4))
-}
-
-/// Larger of two numbers with the corner rounded over `width`.
-fn rounded(a: f32, b: f32, width: f32) -> f32 {
-    let overlap = (width - (a - b).abs()).max(0.0);
-    a.max(b) + overlap * overlap / (4.0 * width)
 }
 
 #[cfg(test)]

@@ -51,6 +51,18 @@ impl Ray {
 }
 
 impl Window {
+    /// A square of the given side around (x, y).
+    pub(crate) fn square(x: f32, y: f32, side: f32, pixels: usize, inverse_distance: f32) -> Self {
+        Self {
+            left: x - side / 2.0,
+            top: y + side / 2.0,
+            pitch: side / pixels as f32,
+            width: pixels,
+            height: pixels,
+            inverse_distance,
+        }
+    }
+
     /// x of the centre of a column.
     pub(crate) fn x(&self, column: usize) -> f32 {
         self.left + (column as f32 + 0.5) * self.pitch

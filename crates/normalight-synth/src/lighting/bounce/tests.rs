@@ -51,14 +51,7 @@ fn bounced(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) -> Vec
 
 /// A bowl: the inside of a sphere of radius 1, cut where its wall is as steep as `least` (normal's z).
 fn bowl(side: usize, least: f32) -> View {
-    let window = Window {
-        left: -1.0,
-        top: 1.0,
-        pitch: 2.0 / side as f32,
-        width: side,
-        height: side,
-        inverse_distance: 0.0,
-    };
+    let window = Window::square(0.0, 0.0, 2.0, side, 0.0);
     let mut depth = vec![f32::NEG_INFINITY; side * side];
     let mut normals = vec![Vec3::ZERO; side * side];
     for pixel in 0..side * side {
@@ -95,14 +88,7 @@ fn a_bowl_gets_what_its_share_of_the_sphere_sends() {
 #[test]
 fn patches_come_near_the_brute_force() {
     let side = 32;
-    let window = Window {
-        left: -1.0,
-        top: 1.0,
-        pitch: 2.0 / side as f32,
-        width: side,
-        height: side,
-        inverse_distance: 0.0,
-    };
+    let window = Window::square(0.0, 0.0, 2.0, side, 0.0);
     // A valley whose walls face each other, and a bumpy ground.
     let valley = |x: f32, _: f32| x.abs();
     let bumps = |x: f32, y: f32| 0.25 * (5.0 * x).sin() * (4.0 * y).cos();

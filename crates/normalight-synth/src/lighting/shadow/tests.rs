@@ -16,14 +16,7 @@ fn view(window: Window, depth: impl Fn(f32, f32) -> f32, back: f32) -> View {
 }
 
 fn window(side: usize) -> Window {
-    Window {
-        left: -2.0,
-        top: 2.0,
-        pitch: 4.0 / side as f32,
-        width: side,
-        height: side,
-        inverse_distance: 0.0,
-    }
+    Window::square(0.0, 0.0, 4.0, side, 0.0)
 }
 
 #[test]
@@ -79,14 +72,7 @@ fn shadows_are_those_of_ray_casting() {
             let side = 96;
             let reach =
                 1.1 * object.extent().max_element() / (1.0 - inverse_distance * object.reach());
-            let window = Window {
-                left: -reach,
-                top: reach,
-                pitch: 2.0 * reach / side as f32,
-                width: side,
-                height: side,
-                inverse_distance,
-            };
+            let window = Window::square(0.0, 0.0, 2.0 * reach, side, inverse_distance);
             let view = object.view(window, Detail::All);
             let shadows = Shadows::new(&view);
             for _ in 0..4 {
