@@ -1,8 +1,10 @@
 //! Fast CPU operations, forward and backward.
 //!
-//! Each is a function on Burn tensors. On the flex backend with the feature `flex` it runs our own
-//! code; everywhere else it is composed of Burn's operations and gives the same numbers up to
-//! rounding.
+//! Each is a function on Burn tensors. On the flex backend with the feature `flex` it runs our own code; everywhere
+//! else it is composed of Burn's operations and gives the same numbers up to rounding.
+//!
+//! Feature maps are channels last, `[batch, height, width, channels]`: a pixel's channels lie side by side, as vector
+//! instructions and matrix products want them.
 #![deny(missing_docs)]
 #![cfg_attr(
     not(feature = "autodiff"),
@@ -12,16 +14,13 @@
     )
 )]
 
-mod convolution;
 #[cfg(feature = "flex")]
-mod flex;
+mod backend;
 #[cfg(feature = "flex")]
-mod geometry;
-#[cfg(feature = "autodiff")]
-mod gradient;
-#[cfg(feature = "flex")]
-mod matrix;
-#[cfg(feature = "flex")]
-mod unfolded;
+mod cpu;
+mod operations;
 
-pub use convolution::convolution;
+pub use operations::{
+    BatchMoments, Convolution, batch_norm, channels_first, channels_last, convolution,
+    depthwise_relu, max_over_images, scale_channels, transposed_convolution,
+};

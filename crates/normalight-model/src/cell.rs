@@ -116,7 +116,7 @@ impl<'a> CellRow<'a> {
 impl CellLayer {
     /// # Shapes
     /// - inputs: the outputs of the cell before the last and of the last
-    /// - output: `[batch, nodes * width, height / stride, width / stride]`
+    /// - output: `[batch, height / stride, width / stride, nodes * width]`
     fn forward(&self, before_last: Tensor<4>, last: Tensor<4>) -> Tensor<4> {
         let mut states = vec![
             self.before_last.forward(before_last),
@@ -127,7 +127,7 @@ impl CellLayer {
             let second = operations[1].forward(states[from[1]].clone());
             states.push(first + second);
         }
-        Tensor::cat(states.split_off(2), 1)
+        Tensor::cat(states.split_off(2), 3)
     }
 
     pub(crate) fn folded(&self) -> Self {

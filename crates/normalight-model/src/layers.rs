@@ -1,12 +1,13 @@
+//! Layers; feature maps are channels last, `[batch, height, width, channels]`.
+
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig};
 use burn::nn::{BatchNorm, BatchNormConfig, PaddingConfig2d};
-use burn::tensor::module::interpolate;
-use burn::tensor::ops::{InterpolateMode, InterpolateOptions};
 use burn::tensor::{Device, Tensor, activation};
+use normalight_kernels::{BatchMoments, Convolution, batch_norm, scale_channels};
 
 /// Slope of the leaky ReLU of all plain layers.
-const LEAK: f32 = 0.1;
+pub(crate) const LEAK: f32 = 0.1;
 
 /// A convolution with bias, "same" padding and a stride, no activation.
 pub(crate) fn convolution(
@@ -43,13 +44,26 @@ pub(crate) fn leaky<const D: usize>(input: Tensor<D>) -> Tensor<D> {
 }
 
 /// A layer of [`convolution`] and leaky ReLU.
+///
+/// # Shapes
+/// - input: `[batch, height, width, channels_in]`
+/// - output: `[batch, height / stride, width / stride, channels_out]`
 pub(crate) fn convolve_leaky(conv: &Conv2d, input: Tensor<4>) -> Tensor<4> {
-    convolve_slope(conv, input, LEAK)
+    convolve_as(conv, input, 1, LEAK)
+}
+
+/// A layer of [`convolution`] and leaky ReLU on the input enlarged by two.
+///
+/// # Shapes
+/// - input: `[batch, height, width, channels_in]`
+/// - output: `[batch, 2 height, 2 width, channels_out]`
+pub(crate) fn convolve_doubled(conv: &Conv2d, input: Tensor<4>) -> Tensor<4> {
+    convolve_as(conv, input, 2, LEAK)
 }
 
 /// A layer of [`convolution`] alone.
 pub(crate) fn convolve(conv: &Conv2d, input: Tensor<4>) -> Tensor<4> {
-    convolve_slope(conv, input, 1.0)
+    convolve_as(conv, input, 1, 1.0)
 }
 
 /// A row of layers of [`convolution`] and leaky ReLU.
@@ -59,22 +73,51 @@ pub(crate) fn convolve_row(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<
         .fold(input, |input, conv| convolve_leaky(conv, input))
 }
 
-fn convolve_slope(conv: &Conv2d, input: Tensor<4>, slope: f32) -> Tensor<4> {
-    let Some(bias) = &conv.bias else {
-        unreachable!("`convolution` gives every layer a bias");
+fn convolve_as(conv: &Conv2d, input: Tensor<4>, upsampling: usize, slope: f32) -> Tensor<4> {
+    let how = Convolution {
+        stride: conv.stride[0],
+        upsampling,
+        slope,
+        ..Convolution::default()
     };
-    normalight_kernels::convolution(input, conv.weight.val(), bias.val(), conv.stride[0], slope)
+    normalight_kernels::convolution(input, conv.weight.val(), bias(conv), how)
 }
 
-/// Nearest-neighbour upsampling by two.
-///
-/// # Shapes
-/// - input: `[batch, channels, height, width]`
-/// - output: `[batch, channels, 2 height, 2 width]`
-pub(crate) fn doubled(input: Tensor<4>) -> Tensor<4> {
-    let [_, _, height, width] = input.dims();
-    let nearest = InterpolateOptions::new(InterpolateMode::Nearest);
-    interpolate(input, nearest.with_output_size([2 * height, 2 * width]))
+/// A layer's bias; zeros where it has none.
+fn bias(conv: &Conv2d) -> Tensor<1> {
+    match &conv.bias {
+        Some(bias) => bias.val(),
+        None => {
+            let weight = conv.weight.val();
+            Tensor::zeros([weight.dims()[0]], &weight.device())
+        }
+    }
+}
+
+/// Batch normalisation: by the batch's own statistics on a device with gradients, which also moves the running ones;
+/// by the running ones elsewhere.
+fn normalise(norm: &BatchNorm, input: Tensor<4>) -> Tensor<4> {
+    let epsilon = norm.epsilon as f32;
+    if !input.device().is_autodiff() {
+        let (scale, shift) = running_factors(norm);
+        return scale_channels(input, scale, shift);
+    }
+    let moments = BatchMoments::new(&input);
+    let moved = |running: Tensor<1>, now: &Tensor<1>| {
+        running.detach() * (1.0 - norm.momentum) + now.clone() * norm.momentum
+    };
+    let mean = moved(norm.running_mean.value_sync(), &moments.mean);
+    norm.running_mean.update(mean);
+    let variance = moved(norm.running_var.value_sync(), &moments.variance);
+    norm.running_var.update(variance);
+    batch_norm(input, &moments, norm.gamma.val(), norm.beta.val(), epsilon)
+}
+
+/// Scale and shift that normalise by the running statistics.
+fn running_factors(norm: &BatchNorm) -> (Tensor<1>, Tensor<1>) {
+    let scale = norm.gamma.val() / (norm.running_var.value_sync() + norm.epsilon).sqrt();
+    let shift = norm.beta.val() - norm.running_mean.value_sync() * scale.clone();
+    (scale, shift)
 }
 
 /// A convolution without bias and its batch normalisation; folded into one convolution with bias
@@ -103,12 +146,27 @@ impl NormedConv {
     }
 
     /// # Shapes
-    /// - input: `[batch, channels_in, height, width]`
-    /// - output: `[batch, channels_out, height / stride, width / stride]`
+    /// - input: `[batch, height, width, channels_in]`
+    /// - output: `[batch, height / stride, width / stride, channels_out]`
     pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
-        let output = self.conv.forward(input);
+        self.forward_shifted(input, 0)
+    }
+
+    /// [`Self::forward`] on the input moved left and up by `shift` pixels.
+    fn forward_shifted(&self, input: Tensor<4>, shift: usize) -> Tensor<4> {
+        let how = Convolution {
+            stride: self.conv.stride[0],
+            shift,
+            ..Convolution::default()
+        };
+        let output = normalight_kernels::convolution(
+            input,
+            self.conv.weight.val(),
+            bias(&self.conv),
+            how,
+        );
         match &self.norm {
-            Some(norm) => norm.forward(output),
+            Some(norm) => normalise(norm, output),
             None => output,
         }
     }
@@ -118,8 +176,7 @@ impl NormedConv {
         let Some(norm) = &self.norm else {
             return self.clone();
         };
-        let scale = norm.gamma.val() / (norm.running_var.value() + norm.epsilon).sqrt();
-        let bias = norm.beta.val() - norm.running_mean.value() * scale.clone();
+        let (scale, bias) = running_factors(norm);
         let channels = scale.dims()[0];
         let mut conv = self.conv.clone();
         conv.weight = conv
@@ -149,17 +206,14 @@ impl FactorizedReduce {
     }
 
     /// # Shapes
-    /// - input: `[batch, channels_in, height, width]`, even sides
-    /// - output: `[batch, channels_out, height / 2, width / 2]`
+    /// - input: `[batch, height, width, channels_in]`, even sides
+    /// - output: `[batch, height / 2, width / 2, channels_out]`
     pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
         let input = activation::relu(input);
-        let [batch, channels, height, width] = input.dims();
-        let shifted = input
-            .clone()
-            .slice([0..batch, 0..channels, 1..height, 1..width]);
         // Batch normalisation works per channel, so normalising the halves is the same as
         // normalising both together.
-        Tensor::cat(vec![self.even.forward(input), self.odd.forward(shifted)], 1)
+        let even = self.even.forward(input.clone());
+        Tensor::cat(vec![even, self.odd.forward_shifted(input, 1)], 3)
     }
 
     pub(crate) fn folded(&self) -> Self {

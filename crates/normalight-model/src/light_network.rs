@@ -5,6 +5,7 @@ use burn::module::Module;
 use burn::nn::conv::Conv2d;
 use burn::nn::{Linear, LinearConfig};
 use burn::tensor::{Device, Tensor};
+use normalight_kernels::channels_first;
 
 /// Image and mask.
 const INPUT_CHANNELS: usize = 4;
@@ -84,8 +85,8 @@ impl LightNetwork {
     /// Features of every image by itself.
     ///
     /// # Shapes
-    /// - input: `[images, 4, size, size]`: RGB divided by the stack's mean, and the mask
-    /// - output: `[images, channels, height, width]`
+    /// - input: `[images, size, size, 4]`: RGB divided by the stack's mean, and the mask
+    /// - output: `[images, height, width, channels]`
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
             Features::Plain(plain) => plain.forward(input),
@@ -96,11 +97,11 @@ impl LightNetwork {
     /// Class scores (before softmax): azimuth, elevation and intensity side by side.
     ///
     /// # Shapes
-    /// - own: `[images, channels, height, width]`
+    /// - own: `[images, height, width, channels]`
     /// - fused: the maximum over the images of one stack, repeated for each: the same shape
     /// - output: `[images, classes]`
     pub fn classify(&self, own: Tensor<4>, fused: Tensor<4>) -> Tensor<2> {
-        let both = Tensor::cat(vec![own, fused], 1);
+        let both = Tensor::cat(vec![own, fused], 3);
         let last = match &self.classifier {
             Classifier::Plain(plain) => plain.forward(both),
             Classifier::Cells(cells) => {
@@ -108,7 +109,9 @@ impl LightNetwork {
                 convolve_row(&cells.after, row)
             }
         };
-        let hidden = leaky(self.hidden.forward(last.flatten::<2>(1, 3)));
+        // Weights files have the hidden layer's inputs in this order.
+        let flat = channels_first(last).flatten::<2>(1, 3);
+        let hidden = leaky(self.hidden.forward(flat));
         self.output.forward(hidden)
     }
 

@@ -87,18 +87,24 @@ async fn report(observer: &mut impl Observer, fraction: f32) -> Result<(), Model
 }
 
 /// # Shapes
-/// `[images, 4, size, size]`
+/// `[images, size, size, 4]`
 fn view_batch(
     view: &LightView,
     stack: &ImageStack,
     images: std::ops::Range<usize>,
     device: &Device,
 ) -> Tensor<4> {
-    let shape = [images.len(), 4, view.size(), view.size()];
-    let mut values = vec![0.0; shape.iter().product()];
-    let one = 4 * view.size() * view.size();
-    for (out, image) in values.chunks_exact_mut(one).zip(images) {
-        view.image(stack, image, out);
+    let area = view.size() * view.size();
+    let mut planes = vec![0.0; 4 * area];
+    let mut values = vec![0.0; images.len() * 4 * area];
+    let shape = [images.len(), view.size(), view.size(), 4];
+    for (out, image) in values.chunks_exact_mut(4 * area).zip(images) {
+        view.image(stack, image, &mut planes);
+        for (channel, plane) in planes.chunks_exact(area).enumerate() {
+            for (pixel, value) in out.chunks_exact_mut(4).zip(plane) {
+                pixel[channel] = *value;
+            }
+        }
     }
     Tensor::from_data(TensorData::new(values, shape), device)
 }

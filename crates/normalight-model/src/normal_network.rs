@@ -1,9 +1,12 @@
 use crate::cell::{CellLayer, CellRow, forward_row};
-use crate::layers::{convolution, convolve, convolve_leaky, convolve_row, doubled, leaky};
+use crate::layers::{
+    LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row,
+};
 use crate::{CellNormal, ModelError, NormalArchitecture, NormalBody, PlainNormal, Upsampling};
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
 use burn::tensor::{Device, Tensor};
+use normalight_kernels::transposed_convolution;
 
 /// The normal estimation network: per-image features, their maximum over all images, and a
 /// regressor of unit normals.
@@ -64,8 +67,13 @@ impl UpLayer {
 
     fn forward(&self, input: Tensor<4>) -> Tensor<4> {
         match self {
-            Self::Transposed(conv) => leaky(conv.forward(input)),
-            Self::Nearest(conv) => convolve_leaky(conv, doubled(input)),
+            Self::Transposed(conv) => {
+                let Some(bias) = &conv.bias else {
+                    unreachable!("`new` gives every layer a bias");
+                };
+                transposed_convolution(input, conv.weight.val(), bias.val(), LEAK)
+            }
+            Self::Nearest(conv) => convolve_doubled(conv, input),
         }
     }
 }
@@ -96,22 +104,24 @@ impl NormalNetwork {
     /// Features of every image by itself.
     ///
     /// # Shapes
-    /// - input: `[images, 6 or 7, height, width]`: normalised RGB, light direction, perhaps the
+    /// - input: `[images, height, width, 6 or 7]`: normalised RGB, light direction, perhaps the
     ///   mask; sides multiples of [`NormalNetwork::ALIGNMENT`]
-    /// - output: `[images, channels, height / 2, width / 2]`
+    /// - output: `[images, height / 2, width / 2, channels]`
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.body {
             Body::Plain(plain) => {
                 let small = convolve_row(&plain.down, input);
-                convolve_row(&plain.up, doubled(small))
+                let large = convolve_doubled(&plain.up[0], small);
+                convolve_row(&plain.up[1..], large)
             }
             Body::Cells(cells) => {
                 let row = forward_row(&cells.features, convolve_row(&cells.stem, input));
-                let mut features = cells.feature_up.forward(row);
+                let features = cells.feature_up.forward(row);
                 if cells.second_up {
-                    features = doubled(features);
+                    convolve_doubled(&cells.feature_conv, features)
+                } else {
+                    convolve_leaky(&cells.feature_conv, features)
                 }
-                convolve_leaky(&cells.feature_conv, features)
             }
         }
     }
@@ -119,13 +129,13 @@ impl NormalNetwork {
     /// Unit normals from the maximum of the features over the images.
     ///
     /// # Shapes
-    /// - fused: `[batch, channels, height / 2, width / 2]`
-    /// - output: `[batch, 3, height, width]`
+    /// - fused: `[batch, height / 2, width / 2, channels]`
+    /// - output: `[batch, height, width, 3]`
     pub fn regress(&self, fused: Tensor<4>) -> Tensor<4> {
         let raw = match &self.body {
             Body::Plain(plain) => {
-                let fused = doubled(convolve_row(&plain.fused, fused));
-                convolve(&plain.output, convolve_leaky(&plain.head, fused))
+                let fused = convolve_row(&plain.fused, fused);
+                convolve(&plain.output, convolve_doubled(&plain.head, fused))
             }
             Body::Cells(cells) => {
                 let row = forward_row(&cells.regressor, convolve_row(&cells.fused, fused));
@@ -133,7 +143,7 @@ impl NormalNetwork {
             }
         };
         // The small term keeps the gradient finite where the network says nothing.
-        let length = (raw.clone().square().sum_dim(1) + 1e-8).sqrt();
+        let length = (raw.clone().square().sum_dim(3) + 1e-8).sqrt();
         raw / length
     }
 

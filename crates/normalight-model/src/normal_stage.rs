@@ -163,7 +163,7 @@ impl Tile {
     }
 
     /// # Shapes
-    /// `[images, 6 or 7, padded height, padded width]`
+    /// `[images, padded height, padded width, 6 or 7]`
     fn batch(
         &self,
         stack: &ImageStack,
@@ -174,62 +174,47 @@ impl Tile {
     ) -> Tensor<4> {
         let (width, height) = (self.padded_width, self.padded_height);
         let count = images.len();
-        let mut values = vec![0.0; count * 3 * width * height];
+        let channels = 6 + usize::from(mask_channel);
+        let mut values = vec![0.0; count * channels * width * height];
         let mut plain = vec![0.0; 3 * self.rect.area()];
-        let mut directions = Vec::with_capacity(3 * count);
-        for (image, out) in images.zip(values.chunks_exact_mut(3 * width * height)) {
+        let outs = values.chunks_exact_mut(channels * width * height);
+        for (image, out) in images.zip(outs) {
             stack.linear_tile(image, self.rect, &mut plain);
             let light = &lights[image];
-            directions.extend(light.direction.to_array());
-            for channel in 0..3 {
-                let factor = 1.0 / light.intensity[channel].max(f32::MIN_POSITIVE);
-                for row in 0..self.rect.height {
+            for pixel in out.chunks_exact_mut(channels) {
+                pixel[3..6].copy_from_slice(&light.direction.to_array());
+            }
+            for row in 0..self.rect.height {
+                let line = &mut out[row * width * channels..][..self.rect.width * channels];
+                for channel in 0..3 {
+                    let factor = 1.0 / light.intensity[channel].max(f32::MIN_POSITIVE);
                     let start = channel * self.rect.area() + row * self.rect.width;
                     let source = start..start + self.rect.width;
-                    let out = &mut out[(channel * height + row) * width..][..self.rect.width];
-                    for ((out, value), scale) in out
-                        .iter_mut()
-                        .zip(&plain[source.clone()])
-                        .zip(&self.scale[source])
-                    {
-                        *out = value * factor * scale;
+                    let scaled = plain[source.clone()].iter().zip(&self.scale[source]);
+                    for (pixel, (value, scale)) in line.chunks_exact_mut(channels).zip(scaled) {
+                        pixel[channel] = value * factor * scale;
+                    }
+                }
+                if mask_channel {
+                    let inside = &self.inside[row * self.rect.width..];
+                    for (pixel, &inside) in line.chunks_exact_mut(channels).zip(inside) {
+                        pixel[6] = f32::from(u8::from(inside));
                     }
                 }
             }
         }
-        let colours =
-            Tensor::<4>::from_data(TensorData::new(values, [count, 3, height, width]), device);
-        let directions =
-            Tensor::<4>::from_data(TensorData::new(directions, [count, 3, 1, 1]), device)
-                .expand([count, 3, height, width]);
-        let mut channels = vec![colours, directions];
-        if mask_channel {
-            let mut plane = vec![0.0; width * height];
-            for (row, inside) in self.inside.chunks_exact(self.rect.width).enumerate() {
-                for (out, &inside) in plane[row * width..].iter_mut().zip(inside) {
-                    *out = f32::from(u8::from(inside));
-                }
-            }
-            let data = TensorData::new(plane, [1, 1, height, width]);
-            let plane = Tensor::<4>::from_data(data, device);
-            channels.push(plane.expand([count, 1, height, width]));
-        }
-        Tensor::cat(channels, 1)
+        let data = TensorData::new(values, [count, height, width, channels]);
+        Tensor::from_data(data, device)
     }
 
     /// Copies the kept part of the network's output to the whole map.
     fn keep(&self, values: &[f32], kept: Rect, mask: &Mask, normals: &mut [Vec3]) {
-        let plane = self.padded_width * self.padded_height;
         for y in kept.y..kept.y + kept.height {
             for x in kept.x..kept.x + kept.width {
                 let target = y * mask.width() + x;
                 if mask.inside()[target] {
                     let source = (y - self.rect.y) * self.padded_width + (x - self.rect.x);
-                    normals[target] = Vec3::new(
-                        values[source],
-                        values[plane + source],
-                        values[2 * plane + source],
-                    );
+                    normals[target] = Vec3::from_slice(&values[3 * source..]);
                 }
             }
         }

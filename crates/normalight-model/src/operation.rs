@@ -2,7 +2,8 @@ use crate::Operation;
 use crate::layers::{FactorizedReduce, NormedConv, depthwise};
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
-use burn::tensor::{Device, Tensor, activation};
+use burn::tensor::{Device, Tensor};
+use normalight_kernels::depthwise_relu;
 
 /// A separable convolution as in DARTS: twice ReLU, depthwise k x k, 1x1, batch norm; the first
 /// depthwise convolution carries the stride.
@@ -26,11 +27,12 @@ impl SeparableConv {
     }
 
     fn forward(&self, input: Tensor<4>) -> Tensor<4> {
-        let middle = self
-            .first_pointwise
-            .forward(self.first_depthwise.forward(activation::relu(input)));
-        self.second_pointwise
-            .forward(self.second_depthwise.forward(activation::relu(middle)))
+        let half = |depthwise: &Conv2d, pointwise: &NormedConv, input| {
+            let stride = depthwise.stride[0];
+            pointwise.forward(depthwise_relu(input, depthwise.weight.val(), stride))
+        };
+        let middle = half(&self.first_depthwise, &self.first_pointwise, input);
+        half(&self.second_depthwise, &self.second_pointwise, middle)
     }
 }
 
@@ -77,8 +79,8 @@ impl OperationLayer {
     }
 
     /// # Shapes
-    /// - input: `[batch, channels, height, width]`
-    /// - output: `[batch, channels, height / stride, width / stride]`
+    /// - input: `[batch, height, width, channels]`
+    /// - output: `[batch, height / stride, width / stride, channels]`
     pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
         match self {
             Self::Separable(separable) => separable.forward(input),
@@ -87,13 +89,9 @@ impl OperationLayer {
                 None => input,
             },
             Self::Zero(zero) => {
-                let [batch, channels, height, width] = input.dims();
-                let shape = [
-                    batch,
-                    channels,
-                    height.div_ceil(zero.stride),
-                    width.div_ceil(zero.stride),
-                ];
+                let [batch, height, width, channels] = input.dims();
+                let (height, width) = (height.div_ceil(zero.stride), width.div_ceil(zero.stride));
+                let shape = [batch, height, width, channels];
                 Tensor::zeros(shape, &input.device())
             }
         }

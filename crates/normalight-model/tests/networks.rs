@@ -92,7 +92,7 @@ fn folding_keeps_the_function() {
     let device = Device::flex();
     let architecture = paper_normal(Upsampling::Nearest, [1, 2]);
     let network = NormalNetwork::new(&architecture, false, &device).unwrap();
-    let input = Tensor::<4>::random([2, 6, 16, 24], Distribution::Default, &device);
+    let input = Tensor::<4>::random([2, 16, 24, 6], Distribution::Default, &device);
     let run = |network: &NormalNetwork| network.regress(network.features(input.clone()).max_dim(0));
     let difference = (run(&network) - run(&network.folded())).abs().max();
     assert!(difference.into_scalar::<f32>() < 1e-4);
@@ -107,7 +107,7 @@ fn weights_come_back_and_wrong_files_are_refused() {
     let weights = Weights::from_bytes("light.safetensors", &bytes).unwrap();
     let (read, loaded) = weights.light_network(&device).unwrap();
     assert_eq!(read, architecture);
-    let input = Tensor::<4>::random([3, 4, 64, 64], Distribution::Default, &device);
+    let input = Tensor::<4>::random([3, 64, 64, 4], Distribution::Default, &device);
     let run = |network: &LightNetwork| {
         let own = network.features(input.clone());
         let fused = own.clone().max_dim(0).expand(own.dims());

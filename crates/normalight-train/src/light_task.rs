@@ -1,8 +1,9 @@
-use crate::batch::{Batch, most_per_sample};
+use crate::batch::Batch;
 use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, mean_light_error};
+use normalight_kernels::max_over_images;
 use normalight_model::{LightNetwork, Quiet, Weights, estimate_lights};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
@@ -67,7 +68,7 @@ impl Task for LightTask {
         let settings = &recipe.light;
         let bins = &settings.architecture.bins;
         let own = network.features(batch.input(device));
-        let fused = repeat_per_image(most_per_sample(own.clone(), batch.samples), batch.images);
+        let fused = repeat_per_image(max_over_images(own.clone(), batch.samples), batch.images);
         let scores = network.classify(own, fused);
         let [rows, classes] = scores.dims();
         let target = TensorData::new(batch.target.clone(), [rows, classes + 4]);
@@ -163,14 +164,14 @@ fn soft_label(position: f32, count: usize, deviation: f32) -> Vec<f32> {
 }
 
 /// # Shapes
-/// - fused: `[samples, channels, height, width]`
-/// - output: `[samples * images, channels, height, width]`
+/// - fused: `[samples, height, width, channels]`
+/// - output: `[samples * images, height, width, channels]`
 fn repeat_per_image(fused: Tensor<4>, images: usize) -> Tensor<4> {
-    let [samples, channels, height, width] = fused.dims();
+    let [samples, height, width, channels] = fused.dims();
     fused
-        .reshape([samples, 1, channels * height * width])
-        .expand([samples, images, channels * height * width])
-        .reshape([samples * images, channels, height, width])
+        .reshape([samples, 1, height * width * channels])
+        .expand([samples, images, height * width * channels])
+        .reshape([samples * images, height, width, channels])
 }
 
 #[cfg(test)]

@@ -108,5 +108,6 @@ fn batch<T: Task>(
         T::append(recipe, &sample, seed(recipe, step, k), &mut batch);
         batch.samples += 1;
     }
+    batch.finish();
     Ok(batch)
 }

@@ -1,9 +1,10 @@
-use crate::batch::{Batch, most_per_sample};
+use crate::batch::Batch;
 use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData};
 use glam::{Quat, Vec3};
 use normalight_core::{Light, normal_error};
+use normalight_kernels::{channels_first, max_over_images};
 use normalight_model::{NormalNetwork, Quiet, Stage, Weights, estimate_normals};
 use normalight_synth::{Framing, Sample, scrambled};
 use std::collections::BTreeMap;
@@ -71,7 +72,8 @@ impl Task for NormalTask {
         device: &Device,
     ) -> Tensor<1> {
         let features = network.features(batch.input(device));
-        let normals = network.regress(most_per_sample(features, batch.samples));
+        let fused = max_over_images(features, batch.samples);
+        let normals = channels_first(network.regress(fused));
         let (count, size) = (batch.samples, batch.size);
         let target = TensorData::new(batch.target.clone(), [count, 4, size, size]);
         let target = Tensor::<4>::from_data(target, device);

@@ -1,0 +1,131 @@
+//! Memory that is used again: a training step asks for the same buffers as the one before it, and fresh pages from
+//! the system would cost more than many of the operations that fill them.
+use burn_std::{AccessError, AccessPolicy, AllocationController, AllocationProperty, Bytes};
+use std::mem::MaybeUninit;
+use std::ops::{Deref, DerefMut};
+use std::sync::{Mutex, PoisonError};
+
+/// A cache line, so that vectors do not straddle two of them.
+#[repr(C, align(64))]
+#[derive(Clone, Copy)]
+struct Line([f32; LINE]);
+
+const LINE: usize = 16;
+
+/// Most lines that lie unused: a gigabyte, in the browser an eighth of one.
+const KEPT: usize = if cfg!(target_family = "wasm") {
+    1 << 21
+} else {
+    1 << 24
+};
+
+/// Buffers given back, the smallest first.
+static UNUSED: Mutex<Vec<Vec<Line>>> = Mutex::new(Vec::new());
+
+/// Floats that go back to a common store when dropped.
+pub(crate) struct Buffer {
+    lines: Vec<Line>,
+    length: usize,
+}
+
+impl Buffer {
+    /// A buffer whose values are left from earlier use: every one must be written.
+    pub(crate) fn stale(length: usize) -> Self {
+        let needed = length.div_ceil(LINE);
+        let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
+        let first = unused.partition_point(|lines| lines.len() < needed);
+        // A much larger one is better kept for those who need it.
+        let fits = unused
+            .get(first)
+            .is_some_and(|lines| lines.len() <= 2 * needed + 64);
+        let found = fits.then(|| unused.remove(first));
+        drop(unused);
+        let lines = found.unwrap_or_else(|| vec![Line([0.0; LINE]); needed]);
+        Self { lines, length }
+    }
+
+    /// A buffer of zeros.
+    pub(crate) fn zeros(length: usize) -> Self {
+        let mut buffer = Self::stale(length);
+        buffer.fill(0.0);
+        buffer
+    }
+
+    /// The floats as a tensor's storage.
+    pub(crate) fn into_bytes(self) -> Bytes {
+        let bytes = size_of::<f32>() * self.length;
+        #[expect(unsafe_code, reason = "the only way to storage of our own")]
+        // SAFETY: all floats of a buffer are initialised.
+        unsafe {
+            Bytes::from_controller(Box::new(self), bytes)
+        }
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        let lines = std::mem::take(&mut self.lines);
+        if lines.is_empty() {
+            return;
+        }
+        let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = unused.partition_point(|other| other.len() < lines.len());
+        unused.insert(place, lines);
+        let mut total: usize = unused.iter().map(Vec::len).sum();
+        while total > KEPT {
+            total -= unused.pop().map_or(total, |lines| lines.len());
+        }
+    }
+}
+
+impl Deref for Buffer {
+    type Target = [f32];
+
+    fn deref(&self) -> &[f32] {
+        #[expect(unsafe_code, reason = "lines are floats side by side")]
+        // SAFETY: the lines hold at least `length` initialised floats without gaps (`repr(C)`).
+        unsafe {
+            std::slice::from_raw_parts(self.lines.as_ptr().cast(), self.length)
+        }
+    }
+}
+
+impl DerefMut for Buffer {
+    fn deref_mut(&mut self) -> &mut [f32] {
+        #[expect(unsafe_code, reason = "lines are floats side by side")]
+        // SAFETY: as in `deref`, and the borrow is exclusive.
+        unsafe {
+            std::slice::from_raw_parts_mut(self.lines.as_mut_ptr().cast(), self.length)
+        }
+    }
+}
+
+impl AllocationController for Buffer {
+    fn alloc_align(&self) -> usize {
+        align_of::<Line>()
+    }
+
+    fn property(&self) -> AllocationProperty {
+        AllocationProperty::Other
+    }
+
+    #[expect(unsafe_code, reason = "the trait's signature")]
+    unsafe fn memory_mut(
+        &mut self,
+        _policy: AccessPolicy,
+    ) -> Result<&mut [MaybeUninit<u8>], AccessError> {
+        let floats: &mut [f32] = self;
+        let bytes = size_of_val(floats);
+        // SAFETY: the same memory; the caller writes only initialised bytes, and any bytes make floats.
+        Ok(unsafe { std::slice::from_raw_parts_mut(floats.as_mut_ptr().cast(), bytes) })
+    }
+
+    fn memory(&self, _policy: AccessPolicy) -> Result<&[MaybeUninit<u8>], AccessError> {
+        let floats: &[f32] = self;
+        #[expect(unsafe_code, reason = "floats seen as bytes")]
+        // SAFETY: the same memory, all of it initialised.
+        Ok(unsafe {
+            std::slice::from_raw_parts(floats.as_ptr().cast(), size_of_val(floats))
+        })
+    }
+}

@@ -1,0 +1,255 @@
+//! Convolutions of any size and stride as matrix products over a copy of the rows that are seen.
+use crate::cpu::buffer::Buffer;
+use crate::cpu::geometry::Geometry;
+use crate::cpu::product::{Finish, Left, Product, Right};
+use crate::cpu::window::{Window, add, add_window, copy_window};
+use std::ops::Range;
+
+/// Floats of the rows that are copied at a time: a quarter of the second-level cache.
+const SEEN: usize = 1 << 16;
+
+/// Output rows that are worked on together.
+pub(crate) fn block(geometry: &Geometry) -> usize {
+    if geometry.pointwise() {
+        return (SEEN / (geometry.out_width() * geometry.channels_in)).max(1);
+    }
+    let row = geometry.seen_width() * geometry.channels_in * geometry.stride;
+    (SEEN / row).max(1)
+}
+
+/// What some output rows see.
+fn window(geometry: &Geometry, rows: &Range<usize>) -> Window {
+    Window {
+        first_row: (rows.start * geometry.stride) as isize + geometry.origin,
+        rows: (rows.len() - 1) * geometry.stride + geometry.size,
+        first_column: geometry.origin,
+        columns: geometry.seen_width(),
+    }
+}
+
+/// Some output rows of one image.
+///
+/// # Shapes
+/// - image: `[stored height, stored width, channels_in]`
+/// - weight: `[size, size, channels_in, channels_out]`
+/// - output: `[rows, out_width, channels_out]`
+pub(crate) fn forward(
+    geometry: &Geometry,
+    rows: Range<usize>,
+    image: &[f32],
+    weight: &[f32],
+    bias: &[f32],
+    slope: f32,
+    output: &mut [f32],
+) {
+    let (width, channels_in) = (geometry.out_width(), geometry.channels_in);
+    let channels_out = geometry.channels_out;
+    let finish = Finish::Activated { bias, slope };
+    if geometry.pointwise() {
+        Product {
+            size: [rows.len() * width, channels_out],
+            counts: [1, channels_in],
+            left: Left {
+                values: &image[rows.start * width * channels_in..],
+                row: channels_in,
+                steps: [0, 1],
+            },
+            right: Right {
+                values: weight,
+                steps: [0, channels_out],
+            },
+            output,
+            output_row: channels_out,
+            finish,
+        }
+        .compute();
+        return;
+    }
+    let window = window(geometry, &rows);
+    let mut seen = Buffer::stale(window.floats(channels_in));
+    copy_window(geometry, window, image, &mut seen);
+    let line = window.columns * channels_in;
+    let run = geometry.size * channels_in;
+    for (row, output) in output.chunks_exact_mut(width * channels_out).enumerate() {
+        Product {
+            size: [width, channels_out],
+            counts: [geometry.size, run],
+            left: Left {
+                values: &seen[row * geometry.stride * line..],
+                row: geometry.stride * channels_in,
+                steps: [line, 1],
+            },
+            right: Right {
+                values: weight,
+                steps: [run * channels_out, channels_out],
+            },
+            output,
+            output_row: channels_out,
+            finish,
+        }
+        .compute();
+    }
+}
+
+/// What the gradients of some images are computed from.
+pub(crate) struct Backward<'a> {
+    pub(crate) geometry: &'a Geometry,
+    /// `[images, height, width, channels_in]`.
+    pub(crate) input: &'a [f32],
+    /// `[channels_out, size, size, channels_in]`.
+    pub(crate) transposed: &'a [f32],
+    /// `[images, height, width, channels_out]`.
+    pub(crate) output: &'a [f32],
+    /// Of the output.
+    pub(crate) gradient: &'a [f32],
+    pub(crate) slope: f32,
+}
+
+impl Backward<'_> {
+    /// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and those of the input
+    /// unless that is empty.
+    pub(crate) fn add(&self, of_weight: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
+        let geometry = self.geometry;
+        let mut before = Buffer::stale(geometry.image_out());
+        let images = self
+            .input
+            .chunks_exact(geometry.image_in())
+            .zip(self.output.chunks_exact(geometry.image_out()))
+            .zip(self.gradient.chunks_exact(geometry.image_out()));
+        for (index, ((image, output), gradient)) in images.enumerate() {
+            before_activation(output, gradient, self.slope, of_bias, &mut before);
+            add_to_weight(geometry, image, &before, of_weight);
+            if !of_input.is_empty() {
+                let size = geometry.image_in();
+                let of_image = &mut of_input[index * size..(index + 1) * size];
+                add_to_image(geometry, self.transposed, &before, of_image);
+            }
+        }
+    }
+}
+
+/// Adds the gradient of the weights.
+///
+/// # Shapes
+/// - image: `[stored height, stored width, channels_in]`
+/// - before: gradient of the sums before the activation, `[out_height, out_width, channels_out]`
+/// - of_weight: `[size, size, channels_in, channels_out]`
+pub(crate) fn add_to_weight(
+    geometry: &Geometry,
+    image: &[f32],
+    before: &[f32],
+    of_weight: &mut [f32],
+) {
+    let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
+    let (height, width) = (geometry.out_height(), geometry.out_width());
+    let window = window(geometry, &(0..height));
+    let mut copy = Buffer::stale(0);
+    let seen: &[f32] = if geometry.pointwise() {
+        image
+    } else {
+        copy = Buffer::stale(window.floats(channels_in));
+        copy_window(geometry, window, image, &mut copy);
+        &copy
+    };
+    let line = window.columns * channels_in;
+    let run = geometry.size * channels_in;
+    let taps = of_weight.chunks_exact_mut(run * channels_out);
+    for (tap_row, of_weight) in taps.enumerate() {
+        Product {
+            size: [run, channels_out],
+            counts: [height, width],
+            left: Left {
+                values: &seen[tap_row * line..],
+                row: 1,
+                steps: [geometry.stride * line, geometry.stride * channels_in],
+            },
+            right: Right {
+                values: before,
+                steps: [width * channels_out, channels_out],
+            },
+            output: of_weight,
+            output_row: channels_out,
+            finish: Finish::Added,
+        }
+        .compute();
+    }
+    drop(copy);
+}
+
+/// Adds the gradient of an image (for pointwise convolutions: writes it).
+///
+/// # Shapes
+/// - transposed: `[channels_out, size, size, channels_in]`
+/// - before: gradient of the sums before the activation, `[out_height, out_width, channels_out]`
+/// - of_image: `[stored height, stored width, channels_in]`
+pub(crate) fn add_to_image(
+    geometry: &Geometry,
+    transposed: &[f32],
+    before: &[f32],
+    of_image: &mut [f32],
+) {
+    let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
+    let (width, taps) = (geometry.out_width(), geometry.taps());
+    let product = |pixels: usize, before: &[f32], output: &mut [f32]| {
+        Product {
+            size: [pixels, taps],
+            counts: [1, channels_out],
+            left: Left {
+                values: before,
+                row: channels_out,
+                steps: [0, 1],
+            },
+            right: Right {
+                values: transposed,
+                steps: [0, taps],
+            },
+            output,
+            output_row: taps,
+            finish: Finish::Stored,
+        }
+        .compute();
+    };
+    if geometry.pointwise() {
+        product(geometry.out_area(), before, of_image);
+        return;
+    }
+    let mut unfolded = Buffer::stale(width * taps);
+    let line = geometry.seen_width() * channels_in;
+    let mut seen = Buffer::stale(geometry.size * line);
+    for (row, before) in before.chunks_exact(width * channels_out).enumerate() {
+        product(width, before, &mut unfolded);
+        seen.fill(0.0);
+        pulp::Arch::new().dispatch(|| {
+            let run = geometry.size * channels_in;
+            for (x, pixel) in unfolded.chunks_exact(taps).enumerate() {
+                let from = x * geometry.stride * channels_in;
+                for (seen, pixel) in seen.chunks_exact_mut(line).zip(pixel.chunks_exact(run)) {
+                    add(&mut seen[from..from + run], pixel);
+                }
+            }
+        });
+        add_window(geometry, window(geometry, &(row..row + 1)), &seen, of_image);
+    }
+}
+
+/// Gradients of the sums before bias and activation; adds up those of the bias.
+pub(crate) fn before_activation(
+    output: &[f32],
+    gradient: &[f32],
+    slope: f32,
+    of_bias: &mut [f32],
+    before: &mut [f32],
+) {
+    pulp::Arch::new().dispatch(|| {
+        for ((value, gradient), output) in before.iter_mut().zip(gradient).zip(output) {
+            *value = if *output > 0.0 {
+                *gradient
+            } else {
+                slope * gradient
+            };
+        }
+        for pixel in before.chunks_exact(of_bias.len()) {
+            add(of_bias, pixel);
+        }
+    });
+}

@@ -1,0 +1,81 @@
+//! Transposed convolutions: the transposes of strided ones, with bias and leaky ReLU.
+use crate::cpu::buffer::Buffer;
+use crate::cpu::convolution::{Gradients, PARTS, channels_first, channels_in_last, channels_out_last, sum_parts};
+use crate::cpu::direct::{self, add_to_image, add_to_weight, before_activation};
+use crate::cpu::geometry::Geometry;
+use rayon::prelude::*;
+
+/// `geometry` is that of the convolution whose transpose is computed: its output is our input.
+///
+/// # Shapes
+/// - input: `[batch, height, width, channels_in]`
+/// - weight: `[channels_in, channels_out, size, size]`
+/// - output: `[batch, stride * height, stride * width, channels_out]`
+pub(crate) fn forward(
+    geometry: &Geometry,
+    input: &[f32],
+    weight: &[f32],
+    bias: &[f32],
+    slope: f32,
+) -> Buffer {
+    let transposed = channels_in_last(geometry, weight);
+    let mut output = Buffer::stale(geometry.batch * geometry.image_in());
+    output
+        .par_chunks_exact_mut(geometry.image_in())
+        .zip(input.par_chunks_exact(geometry.image_out()))
+        .for_each(|(output, image)| {
+            for pixel in output.chunks_exact_mut(bias.len()) {
+                pixel.copy_from_slice(bias);
+            }
+            add_to_image(geometry, &transposed, image, output);
+            for value in output {
+                *value = if *value > 0.0 { *value } else { slope * *value };
+            }
+        });
+    output
+}
+
+/// Gradients of [`forward`].
+pub(crate) fn backward(
+    geometry: &Geometry,
+    input: &[f32],
+    weight: &[f32],
+    output: &[f32],
+    gradient: &[f32],
+    slope: f32,
+) -> Gradients {
+    let last = channels_out_last(geometry, weight);
+    let none = Buffer::zeros(geometry.channels_out);
+    let (size_in, size_out) = (geometry.image_out(), geometry.image_in());
+    let part = geometry.batch.div_ceil(PARTS).max(1);
+    let mut of_input = Buffer::stale(geometry.batch * size_in);
+    let sums: Vec<(Buffer, Buffer)> = of_input
+        .par_chunks_mut(part * size_in)
+        .zip(input.par_chunks(part * size_in))
+        .zip(output.par_chunks(part * size_out))
+        .zip(gradient.par_chunks(part * size_out))
+        .map(|(((of_input, input), output), gradient)| {
+            let mut of_weight = Buffer::zeros(weight.len());
+            let mut of_bias = Buffer::zeros(geometry.channels_in);
+            let mut before = Buffer::stale(size_out);
+            let images = of_input
+                .chunks_exact_mut(size_in)
+                .zip(input.chunks_exact(size_in))
+                .zip(output.chunks_exact(size_out))
+                .zip(gradient.chunks_exact(size_out));
+            for (((of_image, image), output), gradient) in images {
+                before_activation(output, gradient, slope, &mut of_bias, &mut before);
+                add_to_weight(geometry, &before, image, &mut of_weight);
+                let rows = 0..geometry.out_height();
+                direct::forward(geometry, rows, &before, &last, &none, 1.0, of_image);
+            }
+            (of_weight, of_bias)
+        })
+        .collect();
+    let (of_weight, bias) = sum_parts(sums);
+    Gradients {
+        input: Some(of_input),
+        weight: channels_first(geometry, &of_weight),
+        bias,
+    }
+}

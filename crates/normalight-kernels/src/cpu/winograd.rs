@@ -1,0 +1,322 @@
+//! 3x3 convolutions of stride 1 by Winograd's F(4x4, 3x3): a quarter of the multiplications.
+//!
+//! The image is cut into tiles of 4x4 outputs. Each tile's 6x6 inputs are transformed; for each of the 36 points a
+//! matrix product over the channels follows, and its result is transformed back. The gradients are the transposes of
+//! these steps, so they need a quarter of the multiplications, too.
+mod kernels;
+mod tiles;
+
+use crate::cpu::buffer::Buffer;
+use crate::cpu::geometry::Geometry;
+use crate::cpu::product::{Finish, Left, Product, Right};
+use crate::cpu::transforms::{KEPT, POINTS, SIDE};
+use crate::cpu::window::{Window, add_window, copy_window};
+use kernels::{KernelGradients, Kernels};
+use std::ops::Range;
+use tiles::{Gather, Points, Scatter, Spread, Write};
+
+/// Floats of a block's transformed tiles, input and output: they stay in the second-level cache.
+const BLOCK: usize = 160_000;
+
+/// Taps of a kernel.
+const TAPS: usize = 9;
+
+/// Channels below which the transforms cost more than they save.
+const FEWEST_CHANNELS: usize = 8;
+
+/// Whether this is the fastest way for a convolution.
+pub(crate) fn suits(geometry: &Geometry) -> bool {
+    let covered = geometry.height().next_multiple_of(KEPT) * geometry.width().next_multiple_of(KEPT);
+    geometry.size == SIDE + 1 - KEPT
+        && geometry.stride == 1
+        && geometry.channels_in >= FEWEST_CHANNELS
+        && geometry.channels_out >= FEWEST_CHANNELS
+        && covered <= 2 * geometry.out_area()
+}
+
+/// Transformed weights, 36 planes in the order of the nine that are given.
+///
+/// # Shapes
+/// - weight: `[3, 3, channels_in, channels_out]`, or the channels the other way round
+pub(crate) fn transform_weights(weight: &[f32]) -> Buffer {
+    let mut points = Buffer::stale(weight.len() / TAPS * POINTS);
+    Kernels {
+        weight,
+        points: &mut points,
+    }
+    .run();
+    points
+}
+
+/// Gradients of the weights from those of [`transform_weights`].
+pub(crate) fn transform_weight_gradients(points: &[f32]) -> Buffer {
+    let mut weight = Buffer::stale(points.len() / POINTS * TAPS);
+    KernelGradients {
+        points,
+        weight: &mut weight,
+    }
+    .run();
+    weight
+}
+
+/// Tile rows of all images of a batch, one after the other.
+#[derive(Clone, Copy)]
+pub(crate) struct TileRows {
+    /// Of one image.
+    pub(crate) per_image: usize,
+    /// Tiles of one row.
+    pub(crate) tiles: usize,
+    /// Rows that are worked on together.
+    pub(crate) block: usize,
+}
+
+impl TileRows {
+    pub(crate) fn new(geometry: &Geometry) -> Self {
+        let tiles = geometry.width().div_ceil(KEPT);
+        let channels = geometry.channels_in + geometry.channels_out;
+        Self {
+            per_image: geometry.height().div_ceil(KEPT),
+            tiles,
+            block: (BLOCK / (POINTS * channels * tiles)).max(1),
+        }
+    }
+
+    /// Output rows of a tile row.
+    pub(crate) fn out_rows(&self, geometry: &Geometry, row: usize) -> Range<usize> {
+        let first = row % self.per_image * KEPT;
+        first..(first + KEPT).min(geometry.height())
+    }
+
+    /// What a tile row sees.
+    fn window(&self, geometry: &Geometry, row: usize) -> Window {
+        Window {
+            first_row: (row % self.per_image * KEPT) as isize + geometry.origin,
+            rows: SIDE,
+            first_column: geometry.origin,
+            columns: self.tiles * KEPT + SIDE - KEPT,
+        }
+    }
+}
+
+/// Outputs of some tile rows.
+///
+/// # Shapes
+/// - input: all images
+/// - points: [`transform_weights`]
+/// - output: the rows' part of the output
+pub(crate) fn forward(
+    geometry: &Geometry,
+    rows: Range<usize>,
+    input: &[f32],
+    points: &[f32],
+    bias: &[f32],
+    slope: f32,
+    output: &mut [f32],
+) {
+    let grid = TileRows::new(geometry);
+    let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
+    let tiles = rows.len() * grid.tiles;
+    let (seen_at, sums_at) = (Points { tiles, channels: channels_in }, Points { tiles, channels: channels_out });
+    let mut seen = Buffer::stale(seen_at.floats());
+    let mut sums = Buffer::stale(sums_at.floats());
+    gather(geometry, &grid, rows.clone(), input, &mut seen);
+    for point in 0..POINTS {
+        Product {
+            size: [tiles, channels_out],
+            counts: [1, channels_in],
+            left: Left {
+                values: &seen[point * seen_at.plane()..],
+                row: channels_in,
+                steps: [0, 1],
+            },
+            right: Right {
+                values: &points[point * channels_in * channels_out..],
+                steps: [0, channels_out],
+            },
+            output: &mut sums[point * sums_at.plane()..],
+            output_row: channels_out,
+            finish: Finish::Stored,
+        }
+        .compute();
+    }
+    let mut from = 0;
+    for (index, row) in rows.enumerate() {
+        let kept = grid.out_rows(geometry, row).len();
+        let floats = kept * geometry.width() * channels_out;
+        Write {
+            points: &sums,
+            place: sums_at,
+            first: index * grid.tiles,
+            tiles: grid.tiles,
+            rows: kept,
+            columns: geometry.width(),
+            bias,
+            slope,
+            out: &mut output[from..from + floats],
+        }
+        .run();
+        from += floats;
+    }
+}
+
+/// Transformed inputs of some tile rows: `[36, tiles, channels_in]`.
+fn gather(
+    geometry: &Geometry,
+    grid: &TileRows,
+    rows: Range<usize>,
+    input: &[f32],
+    points: &mut [f32],
+) {
+    let channels = geometry.channels_in;
+    let place = Points { tiles: rows.len() * grid.tiles, channels };
+    let size = grid.window(geometry, 0).floats(channels);
+    let mut seen = Buffer::stale(size);
+    for (index, row) in rows.enumerate() {
+        let window = grid.window(geometry, row);
+        let image = row / grid.per_image * geometry.image_in();
+        let image = &input[image..image + geometry.image_in()];
+        copy_window(geometry, window, image, &mut seen);
+        Gather {
+            window: &seen,
+            columns: window.columns,
+            tiles: grid.tiles,
+            points,
+            place,
+            first: index * grid.tiles,
+        }
+        .run();
+    }
+}
+
+/// What the gradients of some images are computed from.
+pub(crate) struct Backward<'a> {
+    pub(crate) geometry: &'a Geometry,
+    /// `[images, height, width, channels_in]`.
+    pub(crate) input: &'a [f32],
+    /// `[36, channels_out, channels_in]`.
+    pub(crate) transposed: &'a [f32],
+    /// `[images, height, width, channels_out]`.
+    pub(crate) output: &'a [f32],
+    /// Of the output.
+    pub(crate) gradient: &'a [f32],
+    pub(crate) slope: f32,
+}
+
+impl Backward<'_> {
+    /// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and those of the input
+    /// unless that is empty.
+    pub(crate) fn add(&self, of_points: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
+        let geometry = self.geometry;
+        let grid = TileRows::new(geometry);
+        let images = self.output.len() / geometry.image_out();
+        let rows = images * grid.per_image;
+        for first in (0..rows).step_by(grid.block) {
+            let block = first..rows.min(first + grid.block);
+            self.add_block(&grid, block, of_points, of_bias, of_input);
+        }
+    }
+
+    fn add_block(
+        &self,
+        grid: &TileRows,
+        rows: Range<usize>,
+        of_points: &mut [f32],
+        of_bias: &mut [f32],
+        of_input: &mut [f32],
+    ) {
+        let geometry = self.geometry;
+        let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
+        let tiles = rows.len() * grid.tiles;
+        let (seen_at, sums_at) = (Points { tiles, channels: channels_in }, Points { tiles, channels: channels_out });
+        let mut seen = Buffer::stale(seen_at.floats());
+        let mut sums = Buffer::stale(sums_at.floats());
+        gather(geometry, grid, rows.clone(), self.input, &mut seen);
+        for (index, row) in rows.clone().enumerate() {
+            let kept = grid.out_rows(geometry, row);
+            let line = geometry.width() * channels_out;
+            let from = row / grid.per_image * geometry.image_out() + kept.start * line;
+            let part = from..from + kept.len() * line;
+            Spread {
+                output: &self.output[part.clone()],
+                gradient: &self.gradient[part],
+                slope: self.slope,
+                rows: kept.len(),
+                columns: geometry.width(),
+                bias: of_bias,
+                points: &mut sums,
+                place: sums_at,
+                first: index * grid.tiles,
+                tiles: grid.tiles,
+            }
+            .run();
+        }
+        for point in 0..POINTS {
+            let seen = &mut seen[point * seen_at.plane()..][..tiles * channels_in];
+            let sums = &sums[point * sums_at.plane()..];
+            Product {
+                size: [channels_in, channels_out],
+                counts: [1, tiles],
+                left: Left {
+                    values: seen,
+                    row: 1,
+                    steps: [0, channels_in],
+                },
+                right: Right {
+                    values: sums,
+                    steps: [0, channels_out],
+                },
+                output: &mut of_points[point * channels_in * channels_out..],
+                output_row: channels_out,
+                finish: Finish::Added,
+            }
+            .compute();
+            if of_input.is_empty() {
+                continue;
+            }
+            Product {
+                size: [tiles, channels_in],
+                counts: [1, channels_out],
+                left: Left {
+                    values: sums,
+                    row: channels_out,
+                    steps: [0, 1],
+                },
+                right: Right {
+                    values: &self.transposed[point * channels_in * channels_out..],
+                    steps: [0, channels_in],
+                },
+                output: seen,
+                output_row: channels_in,
+                finish: Finish::Stored,
+            }
+            .compute();
+        }
+        if !of_input.is_empty() {
+            self.scatter(grid, rows, &seen, of_input);
+        }
+    }
+
+    /// The transpose of [`gather`], added to the images.
+    fn scatter(&self, grid: &TileRows, rows: Range<usize>, points: &[f32], of_input: &mut [f32]) {
+        let geometry = self.geometry;
+        let channels = geometry.channels_in;
+        let place = Points { tiles: rows.len() * grid.tiles, channels };
+        let mut seen = Buffer::stale(grid.window(geometry, 0).floats(channels));
+        for (index, row) in rows.enumerate() {
+            let window = grid.window(geometry, row);
+            seen.fill(0.0);
+            Scatter {
+                points,
+                place,
+                first: index * grid.tiles,
+                tiles: grid.tiles,
+                window: &mut seen,
+                columns: window.columns,
+            }
+            .run();
+            let image = row / grid.per_image * geometry.image_in();
+            let image = &mut of_input[image..image + geometry.image_in()];
+            add_window(geometry, window, &seen, image);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The transforms of the weights, a vector of them at a time.
+use crate::cpu::transforms::{POINTS, SIDE, Vectors, kernel, kernel_transposed};
+use crate::cpu::vectors::{Lanes, run};
+use crate::cpu::winograd::TAPS;
+use pulp::{Simd, WithSimd};
+
+/// Nine planes of weights to 36.
+pub(super) struct Kernels<'a> {
+    pub(super) weight: &'a [f32],
+    pub(super) points: &'a mut [f32],
+}
+
+impl Kernels<'_> {
+    pub(super) fn run(self) {
+        check_planes(self.weight.len(), self.points.len());
+        run(self);
+    }
+}
+
+fn check_planes(weight: usize, points: usize) {
+    assert!(
+        weight.is_multiple_of(TAPS) && weight / TAPS * POINTS == points,
+        "weights and transformed weights of different kernels"
+    );
+}
+
+#[expect(unsafe_code, reason = "vectors are read and written through pointers")]
+impl WithSimd for Kernels<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let a = Vectors(simd);
+        let plane = self.weight.len() / TAPS;
+        for first in (0..plane).step_by(S::F32_LANES) {
+            let lanes = Lanes::new(simd, plane - first);
+            let mut half = [[simd.splat_f32s(0.0); 3]; SIDE];
+            for x in 0..3 {
+                // SAFETY: `run` has checked the planes, and the lanes end with them.
+                let column = std::array::from_fn(|y| unsafe {
+                    lanes.load(self.weight.as_ptr().add((y * 3 + x) * plane + first))
+                });
+                for (half, value) in half.iter_mut().zip(kernel(a, column)) {
+                    half[x] = value;
+                }
+            }
+            for (y, half) in half.into_iter().enumerate() {
+                for (x, value) in kernel(a, half).into_iter().enumerate() {
+                    let to = (y * SIDE + x) * plane + first;
+                    // SAFETY: as above.
+                    unsafe { lanes.store(self.points.as_mut_ptr().add(to), value) };
+                }
+            }
+        }
+    }
+}
+
+/// The transpose of [`Kernels`].
+pub(super) struct KernelGradients<'a> {
+    pub(super) points: &'a [f32],
+    pub(super) weight: &'a mut [f32],
+}
+
+impl KernelGradients<'_> {
+    pub(super) fn run(self) {
+        check_planes(self.weight.len(), self.points.len());
+        run(self);
+    }
+}
+
+#[expect(unsafe_code, reason = "vectors are read and written through pointers")]
+impl WithSimd for KernelGradients<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let a = Vectors(simd);
+        let plane = self.weight.len() / TAPS;
+        for first in (0..plane).step_by(S::F32_LANES) {
+            let lanes = Lanes::new(simd, plane - first);
+            let mut half = [[simd.splat_f32s(0.0); SIDE]; 3];
+            for x in 0..SIDE {
+                // SAFETY: `run` has checked the planes, and the lanes end with them.
+                let column = std::array::from_fn(|y| unsafe {
+                    lanes.load(self.points.as_ptr().add((y * SIDE + x) * plane + first))
+                });
+                for (half, value) in half.iter_mut().zip(kernel_transposed(a, column)) {
+                    half[x] = value;
+                }
+            }
+            for (y, half) in half.into_iter().enumerate() {
+                for (x, value) in kernel_transposed(a, half).into_iter().enumerate() {
+                    let to = (y * 3 + x) * plane + first;
+                    // SAFETY: as above.
+                    unsafe { lanes.store(self.weight.as_mut_ptr().add(to), value) };
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The operations as everyone sees them, and how they are composed of Burn's where our own code does not run.
+mod convolution;
+mod depthwise;
+mod max_over_images;
+mod normalisation;
+mod transposed;
+
+pub use convolution::{Convolution, convolution};
+pub use depthwise::depthwise_relu;
+pub use max_over_images::max_over_images;
+pub use normalisation::{BatchMoments, batch_norm, scale_channels};
+pub use transposed::transposed_convolution;
+
+use burn::tensor::Tensor;
+
+/// # Shapes
+/// - input: `[batch, channels, height, width]`
+/// - output: `[batch, height, width, channels]`
+pub fn channels_last(input: Tensor<4>) -> Tensor<4> {
+    input.permute([0, 2, 3, 1])
+}
+
+/// # Shapes
+/// - input: `[batch, height, width, channels]`
+/// - output: `[batch, channels, height, width]`
+pub fn channels_first(input: Tensor<4>) -> Tensor<4> {
+    input.permute([0, 3, 1, 2])
+}
+
+/// Whether our own code can take this tensor: f32 on flex, with gradients only where they are
+/// compiled in.
+#[cfg(feature = "flex")]
+fn on_flex<const D: usize>(input: &Tensor<D>) -> bool {
+    use burn::backend::DispatchDevice;
+    let device = input.device();
+    let differentiable = device.is_autodiff();
+    let plain = device.inner();
+    matches!(plain.as_dispatch(), DispatchDevice::Flex(_))
+        && input.dtype() == burn::tensor::DType::F32
+        && (cfg!(feature = "autodiff") || !differentiable)
+}
