@@ -219,6 +219,33 @@ pub(crate) enum BenchCommand {
     /// 32x16: crops of 32 x 32 pixels under 16 lights, up to 32 of one scene, each with lights, exposure
     /// and noise of its own. 128x32: whole scenes of 128 x 128 pixels under 32 lights.
     Render(BenchRenderArgs),
+    /// How fast the networks are trained, on one core and on all.
+    ///
+    /// Forward and backward, the optimiser and the data apart, for four networks on batches of 16 samples of ten 32x32
+    /// images. Nothing else should run meanwhile.
+    Train(BenchTrainArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchTrainArgs {
+    /// Seconds for each case, at least.
+    #[arg(long, value_name = "S", default_value_t = 3.0)]
+    pub(crate) seconds: f64,
+    /// Threads; default: one, then one for each core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) threads: Option<u32>,
+    /// Only these networks: plain-127k, plain-483k, paper-c8, paper-c16.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = ["plain-127k", "plain-483k", "paper-c8", "paper-c16"])]
+    pub(crate) only: Vec<String>,
+    /// Every operation, too, against the same made of Burn's own.
+    #[arg(long)]
+    pub(crate) ops: bool,
+    /// Time the networks with Burn's own operations instead of ours.
+    #[arg(long)]
+    pub(crate) generic: bool,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -144,7 +144,10 @@ impl Kernels for Flex {
             how.slope,
         );
         let (height, width) = (geometry.out_height(), geometry.out_width());
-        tensor(output, &[geometry.batch, height, width, geometry.channels_out])
+        tensor(
+            output,
+            &[geometry.batch, height, width, geometry.channels_out],
+        )
     }
 
     fn transposed_convolution(
@@ -162,7 +165,10 @@ impl Kernels for Flex {
             slope,
         );
         let (height, width) = (geometry.height(), geometry.width());
-        tensor(output, &[geometry.batch, height, width, geometry.channels_in])
+        tensor(
+            output,
+            &[geometry.batch, height, width, geometry.channels_in],
+        )
     }
 
     fn depthwise_relu(input: FlexTensor, weight: FlexTensor, stride: usize) -> FlexTensor {

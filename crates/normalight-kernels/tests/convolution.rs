@@ -79,7 +79,10 @@ fn transposed_convolutions_agree_with_the_reference() {
                 transposed_convolution(input, weight, bias, slope)
             })
         };
-        let (ours, expected) = (run(&Device::flex().autodiff()), run(&reference().autodiff()));
+        let (ours, expected) = (
+            run(&Device::flex().autodiff()),
+            run(&reference().autodiff()),
+        );
         compare(&ours, &expected, 3e-5, &format!("{shape:?}"));
     }
 }
@@ -155,10 +158,18 @@ fn tiny_numbers_do_not_vanish() {
         let input = Tensor::<4>::full([1, 8, 8, channels], tiny, &device);
         let weight = Tensor::ones([16, channels, size, size], &device);
         let how = Convolution::default();
-        let output = values(convolution(input, weight, Tensor::zeros([16], &device), how));
+        let output = values(convolution(
+            input,
+            weight,
+            Tensor::zeros([16], &device),
+            how,
+        ));
         let expected = tiny * (channels * size * size) as f32;
         let centre = output[(4 * 8 + 4) * 16];
-        assert!((centre / expected - 1.0).abs() < 1e-3, "{centre} {expected}");
+        assert!(
+            (centre / expected - 1.0).abs() < 1e-3,
+            "{centre} {expected}"
+        );
     }
 }
 

@@ -29,8 +29,16 @@ fn depthwise_convolutions_agree_with_the_reference() {
                 depthwise_relu(input, weight, stride)
             })
         };
-        let (ours, expected) = (run(&Device::flex().autodiff()), run(&reference().autodiff()));
-        compare(&ours, &expected, 1e-5, &format!("{shape:?} {size} {stride}"));
+        let (ours, expected) = (
+            run(&Device::flex().autodiff()),
+            run(&reference().autodiff()),
+        );
+        compare(
+            &ours,
+            &expected,
+            1e-5,
+            &format!("{shape:?} {size} {stride}"),
+        );
     }
 }
 
@@ -48,7 +56,10 @@ fn normalisation_agrees_with_the_reference() {
                 batch_norm(input, &moments, gamma.flatten(0, 3), beta, 1e-5)
             })
         };
-        let (ours, expected) = (run(&Device::flex().autodiff()), run(&reference().autodiff()));
+        let (ours, expected) = (
+            run(&Device::flex().autodiff()),
+            run(&reference().autodiff()),
+        );
         // The reference sums in single precision: its own error is of this size.
         compare(&ours, &expected, 2e-3, &format!("{shape:?}"));
     }
@@ -100,7 +111,10 @@ fn maxima_agree_with_the_reference() {
                 max_over_images(input, samples)
             })
         };
-        let (ours, expected) = (run(&Device::flex().autodiff()), run(&reference().autodiff()));
+        let (ours, expected) = (
+            run(&Device::flex().autodiff()),
+            run(&reference().autodiff()),
+        );
         compare(&ours, &expected, 1e-6, &format!("{shape:?}"));
     }
 }

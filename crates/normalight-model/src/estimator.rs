@@ -1,7 +1,7 @@
 use crate::observer::{Observer, Progress, Stage};
 use crate::{
     LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Weights,
-    estimate_lights, estimate_normals, light_parameters, normal_parameters,
+    estimate_lights, estimate_normals, light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
@@ -71,8 +71,8 @@ impl Estimator {
     /// Number of trainable parameters of the light and of the normal network.
     pub fn parameters(&self) -> [usize; 2] {
         [
-            light_parameters(&self.light_architecture),
-            normal_parameters(&self.normal_architecture),
+            light_cost(&self.light_architecture).parameters,
+            normal_cost(&self.normal_architecture, 0).parameters,
         ]
     }
 

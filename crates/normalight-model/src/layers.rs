@@ -159,12 +159,8 @@ impl NormedConv {
             shift,
             ..Convolution::default()
         };
-        let output = normalight_kernels::convolution(
-            input,
-            self.conv.weight.val(),
-            bias(&self.conv),
-            how,
-        );
+        let output =
+            normalight_kernels::convolution(input, self.conv.weight.val(), bias(&self.conv), how);
         match &self.norm {
             Some(norm) => normalise(norm, output),
             None => output,

@@ -9,6 +9,7 @@
 
 mod architecture;
 mod cell;
+mod cost;
 mod defaults;
 mod error;
 mod estimator;
@@ -21,13 +22,13 @@ mod normal_network;
 mod normal_stage;
 mod observer;
 mod operation;
-mod parameters;
 mod weights;
 
 pub use architecture::{
     Architecture, CellLight, CellNormal, LightArchitecture, LightBody, NormalArchitecture,
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
+pub use cost::{NetworkCost, light_cost, normal_cost};
 pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;
 pub use estimator::{Estimate, EstimateSettings, Estimator};
@@ -38,5 +39,4 @@ pub use light_view::LightView;
 pub use normal_network::NormalNetwork;
 pub use normal_stage::estimate_normals;
 pub use observer::{Observer, Progress, Quiet, Stage, StageTimes};
-pub use parameters::{light_parameters, normal_parameters};
 pub use weights::Weights;

@@ -1,7 +1,5 @@
 use crate::cell::{CellLayer, CellRow, forward_row};
-use crate::layers::{
-    LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row,
-};
+use crate::layers::{LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row};
 use crate::{CellNormal, ModelError, NormalArchitecture, NormalBody, PlainNormal, Upsampling};
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};

@@ -8,7 +8,7 @@ use normalight_core::{
 use normalight_model::{
     CellLight, CellNormal, EstimateSettings, Estimator, LightArchitecture, LightBody, LightNetwork,
     ModelError, NormalArchitecture, NormalBody, NormalNetwork, Quiet, Upsampling, Weights,
-    light_parameters, normal_parameters, paper_genotypes,
+    light_cost, normal_cost, paper_genotypes,
 };
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ fn layers_have_the_parameters_of_the_closed_form() {
     let device = Device::flex();
     for architecture in [LightArchitecture::plain(), paper_light()] {
         let network = LightNetwork::new(&architecture, false, &device).unwrap();
-        let expected = light_parameters(&architecture) + running_statistics(&network);
+        let expected = light_cost(&architecture).parameters + running_statistics(&network);
         assert_eq!(network.num_params(), expected);
     }
     for architecture in [
@@ -51,7 +51,7 @@ fn layers_have_the_parameters_of_the_closed_form() {
         paper_normal(Upsampling::Transposed, [1, 1]),
     ] {
         let network = NormalNetwork::new(&architecture, false, &device).unwrap();
-        let expected = normal_parameters(&architecture) + running_statistics(&network);
+        let expected = normal_cost(&architecture, 0).parameters + running_statistics(&network);
         assert_eq!(network.num_params(), expected);
     }
 }

@@ -1,7 +1,5 @@
 use crate::TrainError;
-use normalight_model::{
-    LightArchitecture, NormalArchitecture, light_parameters, normal_parameters,
-};
+use normalight_model::{LightArchitecture, NormalArchitecture, light_cost, normal_cost};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -315,8 +313,8 @@ impl TrainRecipe {
     /// Number of trainable parameters of the network that is trained.
     pub fn parameters(&self) -> usize {
         match self.network {
-            Network::Light => light_parameters(&self.light.architecture),
-            Network::Normal => normal_parameters(&self.normal.architecture),
+            Network::Light => light_cost(&self.light.architecture).parameters,
+            Network::Normal => normal_cost(&self.normal.architecture, 0).parameters,
         }
     }
 

@@ -66,7 +66,7 @@ pub(crate) fn run(args: &BenchRenderArgs) -> Result<Outcome> {
             return Ok(Outcome::Interrupted);
         }
     }
-    report.peak_memory = peak_memory();
+    report.peak_memory = super::peak_memory();
     print(&if args.json {
         serde_json::to_string_pretty(&report)? + "\n"
     } else {
@@ -151,12 +151,4 @@ fn to_text(report: &Report) -> String {
         text += &format!("memory: {:.0} MB at most\n", bytes as f64 / 1e6);
     }
     text
-}
-
-/// Most memory the process held so far, where the system tells (Linux: proc(5), `VmHWM`).
-fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(kilobytes * 1024)
 }

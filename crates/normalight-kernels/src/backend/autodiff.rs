@@ -290,7 +290,13 @@ impl<C: CheckpointStrategy> Kernels for Autodiff<Flex, C> {
             beta.primitive().clone(),
             epsilon,
         );
-        recorded!(NormalisationBackward, C, [input, gamma, beta], state, output)
+        recorded!(
+            NormalisationBackward,
+            C,
+            [input, gamma, beta],
+            state,
+            output
+        )
     }
 
     fn max_over_images(input: FloatTensor<Self>, samples: usize) -> FloatTensor<Self> {

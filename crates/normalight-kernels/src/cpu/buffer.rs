@@ -124,8 +124,6 @@ impl AllocationController for Buffer {
         let floats: &[f32] = self;
         #[expect(unsafe_code, reason = "floats seen as bytes")]
         // SAFETY: the same memory, all of it initialised.
-        Ok(unsafe {
-            std::slice::from_raw_parts(floats.as_ptr().cast(), size_of_val(floats))
-        })
+        Ok(unsafe { std::slice::from_raw_parts(floats.as_ptr().cast(), size_of_val(floats)) })
     }
 }

@@ -28,8 +28,8 @@ pub(crate) fn forward(
         let grid = winograd::TileRows::new(geometry);
         let rows = geometry.batch * grid.per_image;
         let floats = |row: usize| {
-            let rows = row / grid.per_image * geometry.height()
-                + grid.out_rows(geometry, row).start;
+            let rows =
+                row / grid.per_image * geometry.height() + grid.out_rows(geometry, row).start;
             rows * geometry.width() * geometry.channels_out
         };
         let mut blocks = Vec::new();

@@ -230,7 +230,9 @@ impl Depthwise {
                 Row::new(&gradients, weight, self.period(), line, taps).compute();
             }
             pulp::Arch::new().dispatch(|| {
-                let pixels = of_row.chunks_exact_mut(channels).zip(row.chunks_exact(channels));
+                let pixels = of_row
+                    .chunks_exact_mut(channels)
+                    .zip(row.chunks_exact(channels));
                 for (x, (of_pixel, pixel)) in pixels.enumerate() {
                     if (x + padding) / self.stride >= self.columns() {
                         of_pixel.fill(0.0);

@@ -195,18 +195,25 @@ pub(crate) fn backward(
             }
         }
     }
-    let [beta, products] = totals.map(|sums| sums.into_iter().map(|sum| sum as f32).collect::<Vec<_>>());
-    let of_gamma: Vec<f32> = products.iter().zip(&inverse).map(|(sum, inverse)| sum * inverse).collect();
+    let [beta, products] =
+        totals.map(|sums| sums.into_iter().map(|sum| sum as f32).collect::<Vec<_>>());
+    let of_gamma: Vec<f32> = products
+        .iter()
+        .zip(&inverse)
+        .map(|(sum, inverse)| sum * inverse)
+        .collect();
     let count = (input.len() / channels) as f32;
     // d input = scale * (d output - mean(d output) - normalised * mean(d output * normalised)), which is
     // scale * d output + slope * input + offset.
-    let scale: Vec<f32> = gamma.iter().zip(&inverse).map(|(gamma, inverse)| gamma * inverse).collect();
+    let scale: Vec<f32> = gamma
+        .iter()
+        .zip(&inverse)
+        .map(|(gamma, inverse)| gamma * inverse)
+        .collect();
     let slope: Vec<f32> = (0..channels)
         .map(|k| -scale[k] * inverse[k] * of_gamma[k] / count)
         .collect();
-    let offset: Vec<f32> = (0..channels)
-        .map(|k| -scale[k] * beta[k] / count)
-        .collect();
+    let offset: Vec<f32> = (0..channels).map(|k| -scale[k] * beta[k] / count).collect();
     let [scale, slope, offset] = [scale, slope, offset].map(|values| repeated(&values, period));
     let mut of_input = Buffer::stale(input.len());
     of_input

@@ -88,8 +88,14 @@ impl WithSimd for Product<'_> {
                     rows: most.min(rows - row),
                     column,
                 };
-                let last = Lanes::new(simd, left - left.min(pair).saturating_sub(1) / S::F32_LANES * S::F32_LANES);
-                match (left > S::F32_LANES, left.is_multiple_of(S::F32_LANES) || left > pair) {
+                let last = Lanes::new(
+                    simd,
+                    left - left.min(pair).saturating_sub(1) / S::F32_LANES * S::F32_LANES,
+                );
+                match (
+                    left > S::F32_LANES,
+                    left.is_multiple_of(S::F32_LANES) || left > pair,
+                ) {
                     (true, true) => tile.compute::<S, 2, true>(&mut self, last),
                     (true, false) => tile.compute::<S, 2, false>(&mut self, last),
                     (false, true) => tile.compute::<S, 1, true>(&mut self, last),
@@ -110,7 +116,11 @@ struct Tile {
 impl Tile {
     /// `N` vectors of columns; `last` says how much of the last one is used unless it is `WHOLE`.
     #[inline(always)]
-    fn compute<S: Simd, const N: usize, const WHOLE: bool>(&self, product: &mut Product<'_>, last: Lanes<S>) {
+    fn compute<S: Simd, const N: usize, const WHOLE: bool>(
+        &self,
+        product: &mut Product<'_>,
+        last: Lanes<S>,
+    ) {
         #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
         // SAFETY: `Product::compute` has checked the largest index of every matrix, and a tile lies inside the product.
         unsafe {

@@ -50,7 +50,10 @@ pub(crate) fn input_transposed<A: Arithmetic>(a: A, v: [A::Value; 6]) -> [A::Val
         a.scale(4.0, v[0]),
         a.scale_add(4.0, a.add(near_slope, v[5]), a.scale(2.0, far_slope)),
         a.subtract(a.scale_add(-5.0, v[0], a.scale(-4.0, near)), far),
-        a.subtract(a.scale_add(-5.0, v[5], a.scale(-2.0, far_slope)), near_slope),
+        a.subtract(
+            a.scale_add(-5.0, v[5], a.scale(-2.0, far_slope)),
+            near_slope,
+        ),
         a.add(v[0], a.add(near, far)),
         v[5],
     ]

@@ -1,6 +1,8 @@
 //! Transposed convolutions: the transposes of strided ones, with bias and leaky ReLU.
 use crate::cpu::buffer::Buffer;
-use crate::cpu::convolution::{Gradients, PARTS, channels_first, channels_in_last, channels_out_last, sum_parts};
+use crate::cpu::convolution::{
+    Gradients, PARTS, channels_first, channels_in_last, channels_out_last, sum_parts,
+};
 use crate::cpu::direct::{self, add_to_image, add_to_weight, before_activation};
 use crate::cpu::geometry::Geometry;
 use rayon::prelude::*;

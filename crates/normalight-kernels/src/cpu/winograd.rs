@@ -26,7 +26,8 @@ const FEWEST_CHANNELS: usize = 8;
 
 /// Whether this is the fastest way for a convolution.
 pub(crate) fn suits(geometry: &Geometry) -> bool {
-    let covered = geometry.height().next_multiple_of(KEPT) * geometry.width().next_multiple_of(KEPT);
+    let covered =
+        geometry.height().next_multiple_of(KEPT) * geometry.width().next_multiple_of(KEPT);
     geometry.size == SIDE + 1 - KEPT
         && geometry.stride == 1
         && geometry.channels_in >= FEWEST_CHANNELS
@@ -116,7 +117,16 @@ pub(crate) fn forward(
     let grid = TileRows::new(geometry);
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     let tiles = rows.len() * grid.tiles;
-    let (seen_at, sums_at) = (Points { tiles, channels: channels_in }, Points { tiles, channels: channels_out });
+    let (seen_at, sums_at) = (
+        Points {
+            tiles,
+            channels: channels_in,
+        },
+        Points {
+            tiles,
+            channels: channels_out,
+        },
+    );
     let mut seen = Buffer::stale(seen_at.floats());
     let mut sums = Buffer::stale(sums_at.floats());
     gather(geometry, &grid, rows.clone(), input, &mut seen);
@@ -168,7 +178,10 @@ fn gather(
     points: &mut [f32],
 ) {
     let channels = geometry.channels_in;
-    let place = Points { tiles: rows.len() * grid.tiles, channels };
+    let place = Points {
+        tiles: rows.len() * grid.tiles,
+        channels,
+    };
     let size = grid.window(geometry, 0).floats(channels);
     let mut seen = Buffer::stale(size);
     for (index, row) in rows.enumerate() {
@@ -227,7 +240,16 @@ impl Backward<'_> {
         let geometry = self.geometry;
         let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
         let tiles = rows.len() * grid.tiles;
-        let (seen_at, sums_at) = (Points { tiles, channels: channels_in }, Points { tiles, channels: channels_out });
+        let (seen_at, sums_at) = (
+            Points {
+                tiles,
+                channels: channels_in,
+            },
+            Points {
+                tiles,
+                channels: channels_out,
+            },
+        );
         let mut seen = Buffer::stale(seen_at.floats());
         let mut sums = Buffer::stale(sums_at.floats());
         gather(geometry, grid, rows.clone(), self.input, &mut seen);
@@ -300,7 +322,10 @@ impl Backward<'_> {
     fn scatter(&self, grid: &TileRows, rows: Range<usize>, points: &[f32], of_input: &mut [f32]) {
         let geometry = self.geometry;
         let channels = geometry.channels_in;
-        let place = Points { tiles: rows.len() * grid.tiles, channels };
+        let place = Points {
+            tiles: rows.len() * grid.tiles,
+            channels,
+        };
         let mut seen = Buffer::stale(grid.window(geometry, 0).floats(channels));
         for (index, row) in rows.enumerate() {
             let window = grid.window(geometry, row);

@@ -18,9 +18,14 @@ impl BatchMoments {
         #[cfg(feature = "flex")]
         if super::on_flex(&input) {
             use burn::backend::Dispatch;
-            let both = <Dispatch as crate::backend::Kernels>::channel_moments(input.into_dispatch());
+            let both =
+                <Dispatch as crate::backend::Kernels>::channel_moments(input.into_dispatch());
             let both = Tensor::<2>::from_dispatch(both);
-            let row = |k: usize| both.clone().slice([k..k + 1, 0..channels]).reshape([channels]);
+            let row = |k: usize| {
+                both.clone()
+                    .slice([k..k + 1, 0..channels])
+                    .reshape([channels])
+            };
             return Self {
                 mean: row(0),
                 variance: row(1),

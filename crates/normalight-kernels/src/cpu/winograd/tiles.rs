@@ -56,7 +56,12 @@ pub(super) struct Gather<'a> {
 impl Gather<'_> {
     pub(super) fn run(self) {
         self.place.check(self.first, self.tiles, self.points.len());
-        check_window(self.tiles, self.columns, self.place.channels, self.window.len());
+        check_window(
+            self.tiles,
+            self.columns,
+            self.place.channels,
+            self.window.len(),
+        );
         run(self);
     }
 }
@@ -108,13 +113,17 @@ pub(super) struct Scatter<'a> {
     pub(super) tiles: usize,
     pub(super) window: &'a mut [f32],
     pub(super) columns: usize,
-
 }
 
 impl Scatter<'_> {
     pub(super) fn run(self) {
         self.place.check(self.first, self.tiles, self.points.len());
-        check_window(self.tiles, self.columns, self.place.channels, self.window.len());
+        check_window(
+            self.tiles,
+            self.columns,
+            self.place.channels,
+            self.window.len(),
+        );
         run(self);
     }
 }

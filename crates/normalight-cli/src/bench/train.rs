@@ -1,0 +1,199 @@
+//! `normalight bench train`: how fast the networks learn on this machine.
+mod networks;
+mod operations;
+
+use crate::Outcome;
+use crate::args::BenchTrainArgs;
+use crate::interrupt;
+use crate::terminal::print;
+use anyhow::{Context, Result, bail};
+use burn::tensor::{Device, Tensor};
+use networks::Case;
+use operations::OperationCase;
+use serde::Serialize;
+use std::time::{Duration, Instant};
+
+/// All cases, as they are printed.
+#[derive(Debug, Serialize)]
+struct Report {
+    version: &'static str,
+    /// Whose operations: `own`, or `generic` for those of Burn alone.
+    operations: &'static str,
+    matmul: Vec<Matmul>,
+    cases: Vec<Case>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    operation_cases: Vec<OperationCase>,
+    /// Most memory the process held, bytes; unknown on some systems.
+    peak_memory: Option<u64>,
+}
+
+/// Product of two matrices of 1024x1024: what the machine can do.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Matmul {
+    threads: usize,
+    gflops: f64,
+}
+
+/// Runs everything for one thread and for all.
+pub(crate) fn run(args: &BenchTrainArgs) -> Result<Outcome> {
+    if !(args.seconds >= 0.01 && args.seconds <= 3600.0) {
+        bail!("--seconds: {} found, 0.01 to 3600 expected", args.seconds);
+    }
+    let cores = std::thread::available_parallelism().map_or(1, Into::into);
+    let mut threads = match args.threads {
+        Some(threads) => vec![threads as usize],
+        None => vec![1, cores],
+    };
+    threads.dedup();
+    let least = Duration::from_secs_f64(args.seconds);
+    let mut report = Report {
+        version: env!("CARGO_PKG_VERSION"),
+        operations: if args.generic { "generic" } else { "own" },
+        matmul: Vec::new(),
+        cases: Vec::new(),
+        operation_cases: Vec::new(),
+        peak_memory: None,
+    };
+    for threads in threads {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .with_context(|| format!("{threads} threads cannot be started"))?;
+        let measured = pool.install(|| {
+            let mut measure = || measure(args, threads, least, &mut report);
+            if args.generic {
+                normalight_kernels::generic(measure)
+            } else {
+                measure()
+            }
+        });
+        if !measured? {
+            return Ok(Outcome::Interrupted);
+        }
+    }
+    report.peak_memory = super::peak_memory();
+    print(&if args.json {
+        serde_json::to_string_pretty(&report)? + "\n"
+    } else {
+        to_text(&report)
+    })?;
+    Ok(Outcome::Done)
+}
+
+/// All cases on the threads of this pool; false when the user stops it.
+fn measure(
+    args: &BenchTrainArgs,
+    threads: usize,
+    least: Duration,
+    report: &mut Report,
+) -> Result<bool> {
+    let device = Device::flex();
+    let matmul = matmul(&device, least);
+    report.matmul.push(Matmul {
+        threads,
+        gflops: matmul,
+    });
+    for network in networks::all()? {
+        if interrupt::asked() {
+            return Ok(false);
+        }
+        let wanted = args.only.is_empty() || args.only.iter().any(|name| name == network.name);
+        if wanted {
+            report
+                .cases
+                .push(network.measure(&device, threads, matmul, least)?);
+        }
+    }
+    if args.ops {
+        for operation in operations::all() {
+            if interrupt::asked() {
+                return Ok(false);
+            }
+            report
+                .operation_cases
+                .push(operation.measure(&device, threads, least));
+        }
+    }
+    Ok(true)
+}
+
+/// GFLOP/s of Burn's matrix product.
+fn matmul(device: &Device, least: Duration) -> f64 {
+    const SIDE: usize = 1024;
+    let ones = Tensor::<2>::ones([SIDE, SIDE], device);
+    let seconds = median_seconds(least, || {
+        let start = Instant::now();
+        std::hint::black_box(ones.clone().matmul(ones.clone()).into_data());
+        [start.elapsed()]
+    });
+    2.0 * (SIDE as f64).powi(3) / seconds[0] / 1e9
+}
+
+/// Medians of what `work` measures, repeated for at least that long and at least five times after two warm-ups.
+fn median_seconds<const N: usize>(
+    least: Duration,
+    mut work: impl FnMut() -> [Duration; N],
+) -> [f64; N] {
+    const FEWEST: usize = 5;
+    for _ in 0..2 {
+        work();
+    }
+    let mut times: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
+    let start = Instant::now();
+    while start.elapsed() < least || times.iter().any(|times| times.len() < FEWEST) {
+        for (times, time) in times.iter_mut().zip(work()) {
+            times.push(time.as_secs_f64());
+        }
+        if interrupt::asked() {
+            break;
+        }
+    }
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    })
+}
+
+fn to_text(report: &Report) -> String {
+    let mut text = String::from(
+        "milliseconds a sample of ten 32x32 images, batch 16; speed of forward and backward together\n\n\
+         network      threads   forward  backward      both  optimiser      data   GFLOP/s  of matmul\n",
+    );
+    for case in &report.cases {
+        text += &format!(
+            "{:12} {:7} {:9.2} {:9.2} {:9.2} {:10.2} {:9.2} {:9.0} {:8.0} %\n",
+            case.name,
+            case.threads,
+            case.forward_ms,
+            case.backward_ms,
+            case.ms_per_sample,
+            case.optimiser_ms,
+            case.data_ms,
+            case.gflops,
+            100.0 * case.share_of_matmul
+        );
+    }
+    if !report.operation_cases.is_empty() {
+        text += "\nforward and backward, milliseconds a batch\n\n\
+                 operation                                       threads       own   generic     ratio\n";
+    }
+    for case in &report.operation_cases {
+        text += &format!(
+            "{:47} {:7} {:9.2} {:9.2} {:9.1}\n",
+            case.name,
+            case.threads,
+            case.own_ms,
+            case.generic_ms,
+            case.generic_ms / case.own_ms
+        );
+    }
+    text.push('\n');
+    for matmul in &report.matmul {
+        let (threads, gflops) = (matmul.threads, matmul.gflops);
+        text += &format!("matmul 1024 on {threads} threads: {gflops:.0} GFLOP/s\n");
+    }
+    if let Some(bytes) = report.peak_memory {
+        text += &format!("memory: {:.0} MB at most\n", bytes as f64 / 1e6);
+    }
+    text
+}

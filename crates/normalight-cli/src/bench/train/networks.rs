@@ -1,0 +1,114 @@
+//! The networks that are timed.
+use super::median_seconds;
+use anyhow::{Context, Result};
+use burn::tensor::{Device, Distribution, Tensor};
+use normalight_kernels::max_over_images;
+use normalight_model::{
+    CellNormal, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Upsampling,
+    normal_cost, paper_genotypes,
+};
+use serde::Serialize;
+use std::time::{Duration, Instant};
+
+/// A training step: 16 samples of ten crops of 32x32.
+const BATCH: usize = 16;
+const IMAGES: usize = 10;
+const SIDE: usize = 32;
+
+/// Times of one network on some threads; milliseconds are those of a sample.
+#[derive(Debug, Serialize)]
+pub(super) struct Case {
+    pub(super) name: &'static str,
+    pub(super) threads: usize,
+    /// Forward and backward alone.
+    pub(super) ms_per_sample: f64,
+    pub(super) forward_ms: f64,
+    pub(super) backward_ms: f64,
+    pub(super) optimiser_ms: f64,
+    /// Drawing and preparing samples on one thread; in training other threads do it.
+    pub(super) data_ms: f64,
+    pub(super) samples_per_second: f64,
+    pub(super) parameters: usize,
+    /// Six operations for each multiply-add of the plain definition: forward and both gradients.
+    pub(super) gflops: f64,
+    /// Of the speed of a large matrix product.
+    pub(super) share_of_matmul: f64,
+}
+
+pub(super) struct Candidate {
+    pub(super) name: &'static str,
+    architecture: NormalArchitecture,
+}
+
+/// The four networks.
+pub(super) fn all() -> Result<Vec<Candidate>> {
+    let genotype = paper_genotypes()
+        .normal
+        .context("no published normal cells")?;
+    let plain = |widths, head| NormalBody::Plain(PlainNormal { widths, head });
+    let cells = |width| {
+        NormalBody::Cells(CellNormal {
+            width,
+            stem_strides: [1, 2],
+            upsampling: Upsampling::Nearest,
+            fused_convolutions: 1,
+            genotype: genotype.clone(),
+        })
+    };
+    let candidate = |name, body| Candidate {
+        name,
+        architecture: NormalArchitecture {
+            mask_channel: false,
+            body,
+        },
+    };
+    Ok(vec![
+        candidate("plain-127k", plain([16, 32, 64], 32)),
+        candidate("plain-483k", plain([32, 64, 128], 32)),
+        candidate("paper-c8", cells(8)),
+        candidate("paper-c16", cells(16)),
+    ])
+}
+
+impl Candidate {
+    pub(super) fn measure(
+        &self,
+        device: &Device,
+        threads: usize,
+        matmul: f64,
+        least: Duration,
+    ) -> Result<Case> {
+        let device = device.clone().autodiff();
+        let network = NormalNetwork::new(&self.architecture, false, &device)?;
+        let channels = self.architecture.input_channels();
+        let random = |shape| Tensor::<4>::random(shape, Distribution::Default, &device);
+        let input = random([BATCH * IMAGES, SIDE, SIDE, channels]);
+        let truth = random([BATCH, SIDE, SIDE, 3]);
+        let [both, forward, backward] = median_seconds(least, || {
+            let start = Instant::now();
+            let features = network.features(input.clone());
+            let normals = network.regress(max_over_images(features, BATCH));
+            let loss = (normals * truth.clone()).mean();
+            let forward = start.elapsed();
+            std::hint::black_box(loss.backward());
+            let both = start.elapsed();
+            [both, forward, both - forward]
+        });
+        let cost = normal_cost(&self.architecture, SIDE * SIDE);
+        let per_sample = |seconds: f64| 1e3 * seconds / BATCH as f64;
+        let gflops = 6e-9 * cost.multiply_adds(IMAGES) as f64 * BATCH as f64 / both;
+        Ok(Case {
+            name: self.name,
+            threads,
+            ms_per_sample: per_sample(both),
+            forward_ms: per_sample(forward),
+            backward_ms: per_sample(backward),
+            optimiser_ms: 0.0,
+            data_ms: 0.0,
+            samples_per_second: BATCH as f64 / both,
+            parameters: cost.parameters,
+            gflops,
+            share_of_matmul: gflops / matmul,
+        })
+    }
+}
