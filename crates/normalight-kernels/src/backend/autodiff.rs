@@ -57,6 +57,7 @@ impl Backward<Flex, 3> for ConvolutionBackward {
             gradient: gradient.storage(),
             slope: state.how.slope,
             wants_input: ops.parents[0].is_some(),
+            wants_bias: ops.parents[2].is_some(),
         }
         .gradients();
         let [of_input, of_weight, of_bias] = ops.parents;

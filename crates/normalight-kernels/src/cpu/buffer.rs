@@ -19,8 +19,42 @@ const KEPT: usize = if cfg!(target_family = "wasm") {
     1 << 24
 };
 
-/// Buffers given back, the smallest first.
-static UNUSED: Mutex<Vec<Vec<Line>>> = Mutex::new(Vec::new());
+/// Buffers given back.
+struct Unused {
+    /// The smallest first.
+    buffers: Vec<Vec<Line>>,
+    /// Lines of all.
+    total: usize,
+}
+
+static UNUSED: Mutex<Unused> = Mutex::new(Unused {
+    buffers: Vec::new(),
+    total: 0,
+});
+
+impl Unused {
+    /// One of at least that many lines; a much larger one is better kept for those who need it.
+    fn take(&mut self, needed: usize) -> Option<Vec<Line>> {
+        let first = self.buffers.partition_point(|lines| lines.len() < needed);
+        let fits = self.buffers.get(first)?.len() <= 2 * needed + 64;
+        let lines = fits.then(|| self.buffers.remove(first))?;
+        self.total -= lines.len();
+        Some(lines)
+    }
+
+    fn put(&mut self, lines: Vec<Line>) {
+        self.total += lines.len();
+        let place = self
+            .buffers
+            .partition_point(|other| other.len() < lines.len());
+        self.buffers.insert(place, lines);
+        while self.total > KEPT
+            && let Some(largest) = self.buffers.pop()
+        {
+            self.total -= largest.len();
+        }
+    }
+}
 
 /// Floats that go back to a common store when dropped.
 pub(crate) struct Buffer {
@@ -33,12 +67,7 @@ impl Buffer {
     pub(crate) fn stale(length: usize) -> Self {
         let needed = length.div_ceil(LINE);
         let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
-        let first = unused.partition_point(|lines| lines.len() < needed);
-        // A much larger one is better kept for those who need it.
-        let fits = unused
-            .get(first)
-            .is_some_and(|lines| lines.len() <= 2 * needed + 64);
-        let found = fits.then(|| unused.remove(first));
+        let found = unused.take(needed);
         drop(unused);
         let lines = found.unwrap_or_else(|| vec![Line([0.0; LINE]); needed]);
         Self { lines, length }
@@ -68,13 +97,10 @@ impl Drop for Buffer {
         if lines.is_empty() {
             return;
         }
-        let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
-        let place = unused.partition_point(|other| other.len() < lines.len());
-        unused.insert(place, lines);
-        let mut total: usize = unused.iter().map(Vec::len).sum();
-        while total > KEPT {
-            total -= unused.pop().map_or(total, |lines| lines.len());
-        }
+        UNUSED
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .put(lines);
     }
 }
 

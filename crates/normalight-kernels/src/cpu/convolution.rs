@@ -21,6 +21,7 @@ pub(crate) fn forward(
     bias: &[f32],
     slope: f32,
 ) -> Buffer {
+    let geometry = &geometry.joined(PARTS);
     let weight = channels_out_last(geometry, weight);
     let mut output = Buffer::stale(geometry.batch * geometry.image_out());
     if winograd::suits(geometry) {
@@ -81,11 +82,12 @@ pub(crate) struct Backward<'a> {
     pub(crate) gradient: &'a [f32],
     pub(crate) slope: f32,
     pub(crate) wants_input: bool,
+    pub(crate) wants_bias: bool,
 }
 
 impl Backward<'_> {
     pub(crate) fn gradients(&self) -> Gradients {
-        let geometry = self.geometry;
+        let geometry = &self.geometry.joined(PARTS);
         let by_winograd = winograd::suits(geometry);
         let transposed = if by_winograd {
             winograd::transform_weights(&taps_first(geometry, self.weight))
@@ -131,6 +133,7 @@ impl Backward<'_> {
                         output,
                         gradient,
                         slope: self.slope,
+                        wants_bias: self.wants_bias,
                     }
                     .add(&mut of_weight, &mut of_bias, of_input);
                 }

@@ -297,33 +297,57 @@ impl<'a> Row<'a> {
     }
 }
 
-#[expect(unsafe_code, reason = "vectors are read and written through pointers")]
 impl WithSimd for Row<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let mut place = 0;
-        for from in (0..self.out.len()).step_by(S::F32_LANES) {
-            let left = self.out.len() - from;
-            let lanes = Lanes::new(simd, left);
-            let mut sum = simd.splat_f32s(0.0);
-            for (value, weight) in &self.taps[..self.count] {
-                // SAFETY: `compute` has checked that the row lies inside `values` for every tap, and that a period,
-                // which is made of whole vectors, lies inside `weight`.
-                unsafe {
-                    let value = lanes.load(self.values.as_ptr().add(value + from));
-                    let weight = self.weight.as_ptr().add(weight + place);
-                    let weight = weight.cast::<S::f32s>().read_unaligned();
-                    sum = simd.mul_add_e_f32s(value, weight, sum);
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let (lanes, length) = (S::F32_LANES, self.out.len());
+        let mut from = 0;
+        while from + TOGETHER * lanes <= length {
+            if self.period == lanes {
+                self.vectors::<S, TOGETHER, true>(Lanes::all(simd), from);
+            } else {
+                self.vectors::<S, TOGETHER, false>(Lanes::all(simd), from);
+            }
+            from += TOGETHER * lanes;
+        }
+        while from < length {
+            self.vectors::<S, 1, false>(Lanes::new(simd, length - from), from);
+            from += lanes;
+        }
+    }
+}
+
+/// Vectors of a row that are summed together.
+const TOGETHER: usize = 4;
+
+impl Row<'_> {
+    /// `N` vectors from `from` on; all see the same weights if those repeat with every vector (`SAME`).
+    #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
+    #[inline(always)]
+    fn vectors<S: Simd, const N: usize, const SAME: bool>(&mut self, lanes: Lanes<S>, from: usize) {
+        let simd = lanes.simd;
+        let places: [usize; N] = std::array::from_fn(|n| (from + n * S::F32_LANES) % self.period);
+        let mut sums = [simd.splat_f32s(0.0); N];
+        for (value, weight) in &self.taps[..self.count] {
+            // SAFETY: `compute` has checked that the row lies inside `values` for every tap, and that a period, which
+            // is made of whole vectors, lies inside `weight`.
+            unsafe {
+                let weight = self.weight.as_ptr().add(*weight);
+                let at = |place: usize| weight.add(place).cast::<S::f32s>().read_unaligned();
+                let same = at(places[0]);
+                for (n, sum) in sums.iter_mut().enumerate() {
+                    let value = value + from + n * S::F32_LANES;
+                    let value = lanes.load(self.values.as_ptr().add(value));
+                    let weight = if SAME { same } else { at(places[n]) };
+                    *sum = simd.mul_add_e_f32s(value, weight, *sum);
                 }
             }
+        }
+        for (n, sum) in sums.into_iter().enumerate() {
             // SAFETY: the lanes end with the row.
-            unsafe { lanes.store(self.out.as_mut_ptr().add(from), sum) };
-            place += S::F32_LANES;
-            if place == self.period {
-                place = 0;
-            }
+            unsafe { lanes.store(self.out.as_mut_ptr().add(from + n * S::F32_LANES), sum) };
         }
     }
 }

@@ -103,6 +103,7 @@ pub(crate) struct Backward<'a> {
     /// Of the output.
     pub(crate) gradient: &'a [f32],
     pub(crate) slope: f32,
+    pub(crate) wants_bias: bool,
 }
 
 impl Backward<'_> {
@@ -110,19 +111,26 @@ impl Backward<'_> {
     /// unless that is empty.
     pub(crate) fn add(&self, of_weight: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
         let geometry = self.geometry;
-        let mut before = Buffer::stale(geometry.image_out());
+        // Without activation the gradients of the sums are those of the output.
+        let copied = self.slope != 1.0 || self.wants_bias;
+        let mut before = Buffer::stale(if copied { geometry.image_out() } else { 0 });
         let images = self
             .input
             .chunks_exact(geometry.image_in())
             .zip(self.output.chunks_exact(geometry.image_out()))
             .zip(self.gradient.chunks_exact(geometry.image_out()));
         for (index, ((image, output), gradient)) in images.enumerate() {
-            before_activation(output, gradient, self.slope, of_bias, &mut before);
-            add_to_weight(geometry, image, &before, of_weight);
+            let before: &[f32] = if copied {
+                before_activation(output, gradient, self.slope, of_bias, &mut before);
+                &before
+            } else {
+                gradient
+            };
+            add_to_weight(geometry, image, before, of_weight);
             if !of_input.is_empty() {
                 let size = geometry.image_in();
                 let of_image = &mut of_input[index * size..(index + 1) * size];
-                add_to_image(geometry, self.transposed, &before, of_image);
+                add_to_image(geometry, self.transposed, before, of_image);
             }
         }
     }

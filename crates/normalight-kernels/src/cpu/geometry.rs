@@ -60,6 +60,23 @@ impl Geometry {
         self.size == 1 && self.stride == 1 && self.zoom == 1 && self.origin == 0
     }
 
+    /// The same convolution with the images of a pointwise one joined to at least `fewest` tall ones: what is done once
+    /// for each image is done less often.
+    pub(crate) fn joined(self, fewest: usize) -> Self {
+        if !self.pointwise() {
+            return self;
+        }
+        let together = (1..=self.batch / fewest.max(1))
+            .rev()
+            .find(|together| self.batch.is_multiple_of(*together))
+            .unwrap_or(1);
+        Self {
+            batch: self.batch / together,
+            stored_height: self.stored_height * together,
+            ..self
+        }
+    }
+
     /// Input columns that a row of output pixels sees.
     pub(crate) fn seen_width(&self) -> usize {
         (self.out_width() - 1) * self.stride + self.size

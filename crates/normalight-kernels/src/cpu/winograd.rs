@@ -329,7 +329,6 @@ impl Backward<'_> {
         let mut seen = Buffer::stale(grid.window(geometry, 0).floats(channels));
         for (index, row) in rows.enumerate() {
             let window = grid.window(geometry, row);
-            seen.fill(0.0);
             Scatter {
                 points,
                 place,

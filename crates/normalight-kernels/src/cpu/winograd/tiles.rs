@@ -105,7 +105,7 @@ impl WithSimd for Gather<'_> {
     }
 }
 
-/// The transpose of [`Gather`], added to the window.
+/// The transpose of [`Gather`]: tiles from the window's left edge on are added up, whatever was there before.
 pub(super) struct Scatter<'a> {
     pub(super) points: &'a [f32],
     pub(super) place: Points,
@@ -134,7 +134,7 @@ impl WithSimd for Scatter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let a = Vectors(simd);
+        let (a, zero) = (Vectors(simd), simd.splat_f32s(0.0));
         for channel in (0..self.place.channels).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, self.place.channels - channel);
             for tile in 0..self.tiles {
@@ -153,10 +153,13 @@ impl WithSimd for Scatter<'_> {
                 for (y, half) in half.into_iter().enumerate() {
                     let to = (y * self.columns + tile * KEPT) * self.place.channels + channel;
                     for (x, value) in input_transposed(a, half).into_iter().enumerate() {
+                        // The tile before has left its part in the first columns.
+                        let shared = tile > 0 && x < SIDE - KEPT;
                         // SAFETY: `run` has checked the last tile's place in the window.
                         unsafe {
                             let to = self.window.as_mut_ptr().add(to + x * self.place.channels);
-                            lanes.store(to, simd.add_f32s(value, lanes.load(to)));
+                            let before = if shared { lanes.load(to) } else { zero };
+                            lanes.store(to, simd.add_f32s(value, before));
                         }
                     }
                 }
