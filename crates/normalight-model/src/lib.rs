@@ -8,6 +8,7 @@
 )]
 
 mod architecture;
+mod auxiliary_tower;
 mod cell;
 mod defaults;
 mod error;
@@ -28,6 +29,7 @@ pub use architecture::{
     Architecture, CellLight, CellNormal, LightArchitecture, LightBody, NormalArchitecture,
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
+pub use auxiliary_tower::AuxiliaryTower;
 pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;
 pub use estimator::{Estimate, EstimateSettings, Estimator};
