@@ -14,6 +14,7 @@ mod defaults;
 mod error;
 mod estimator;
 mod genotype;
+mod header;
 mod layers;
 mod light_network;
 mod light_stage;

@@ -132,9 +132,9 @@ fn an_interrupted_run_waits_for_resume() {
 #[test]
 fn training_that_diverges_keeps_what_was_good() {
     let folder = tempfile::tempdir().unwrap();
-    let calm = "steps = 60\nvalidate_every = 1\n[optimiser]\nlearning_rate = 1.0\nwarm_up = 1\n\
+    let high = "steps = 60\nvalidate_every = 1\n[optimiser]\nlearning_rate = 1.0\nwarm_up = 1\n\
                 clip = 1e6\nbetas = [0.0, 0.0]\n";
-    let recipe = recipe(&format!("{NORMAL}{calm}"));
+    let recipe = recipe(&format!("{LIGHT}{high}"));
     let error = run(folder.path(), &recipe, false, None).unwrap_err();
     let TrainError::Diverged {
         step, batch_seed, ..
@@ -143,8 +143,8 @@ fn training_that_diverges_keeps_what_was_good() {
         panic!("{error}");
     };
     assert!(step > 1);
-    // Crops of eight steps share their scenes.
-    assert_eq!(batch_seed, ((step - 1) / 8 * 2) as u64);
+    // Every step has two scenes of its own.
+    assert_eq!(batch_seed, 2 * (step as u64 - 1));
     assert_eq!(error.exit_code(), 3);
     let message = error.to_string();
     assert!(
@@ -159,7 +159,7 @@ fn training_that_diverges_keeps_what_was_good() {
     );
     assert_eq!(summary.steps, step - 1);
     assert_eq!(summary.reason.as_deref(), Some(message.as_str()));
-    assert_eq!(summary.network, Network::Normal);
+    assert_eq!(summary.network, Network::Light);
     assert!(text(folder.path(), "log.txt").contains(&message));
     // The best weights are still there, and finite.
     normalight_model::Weights::from_bytes("best", &found["weights.safetensors"]).unwrap();
