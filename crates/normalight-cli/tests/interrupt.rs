@@ -85,7 +85,8 @@ fn tiny_run(place: &Path, name: &str, steps: usize) -> (PathBuf, Vec<String>) {
     ];
     let more = ["--resume", "--device", "cpu"];
     let arguments = arguments.into_iter().chain(more).map(str::to_owned);
-    (run, arguments.collect())
+    let arguments = arguments.collect();
+    (run, arguments)
 }
 
 fn start_run(arguments: &[String]) -> Child {

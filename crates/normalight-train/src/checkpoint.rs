@@ -7,7 +7,7 @@ use safetensors::tensor::{Dtype, TensorView};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The newest checkpoint, the one before it, and the name under which a new one is written.
 const NEWEST: &str = "checkpoint.safetensors";
@@ -101,6 +101,8 @@ pub(crate) fn save(
 pub(crate) struct Loaded {
     pub(crate) tensors: NamedTensors,
     pub(crate) standing: Standing,
+    /// The file.
+    pub(crate) path: PathBuf,
     /// Why it is not the newest checkpoint.
     pub(crate) note: Option<String>,
 }
@@ -108,10 +110,12 @@ pub(crate) struct Loaded {
 /// Reads the newest checkpoint, or the one before where the newest is damaged.
 pub(crate) fn load(folder: &Path) -> Result<Loaded, TrainError> {
     let read = |name: &str| {
-        let (tensors, standing) = read(&folder.join(name))?;
+        let path = folder.join(name);
+        let (tensors, standing) = read(&path)?;
         Ok(Loaded {
             tensors,
             standing,
+            path,
             note: None,
         })
     };

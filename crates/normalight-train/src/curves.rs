@@ -29,7 +29,7 @@ pub(crate) struct Point {
     /// Seconds of training so far.
     pub(crate) seconds: f64,
     /// More about the validation, by name.
-    pub(crate) figures: BTreeMap<String, f64>,
+    pub(crate) figures: BTreeMap<String, f32>,
 }
 
 /// Writes `curves.csv` and `curves.png` into the run's folder.
@@ -189,7 +189,7 @@ mod tests {
                 seconds: 10.5 * k as f64,
                 figures: BTreeMap::from([
                     ("under_11_25".to_owned(), 0.3),
-                    ("under_30".to_owned(), 1.0 / k as f64),
+                    ("under_30".to_owned(), 1.0 / k as f32),
                 ]),
             })
             .collect();

@@ -9,9 +9,6 @@ pub(crate) trait Learner {
     /// What it takes in at one step.
     type Batch: Send + 'static;
 
-    /// Name of the file that holds the best result.
-    const RESULT: &'static str;
-
     /// Step `step`, from 0. Where loss or gradient is not finite, everything stays as it was.
     ///
     /// # Errors
@@ -24,11 +21,11 @@ pub(crate) trait Learner {
     /// Of the pipeline.
     fn validate(&self) -> Result<Validation, TrainError>;
 
-    /// Content of the result's file.
+    /// Content of the result's file; nothing for a result that no file can hold.
     ///
     /// # Errors
     /// Of the device.
-    fn result(&self) -> Result<Vec<u8>, TrainError>;
+    fn result(&self) -> Result<Option<Vec<u8>>, TrainError>;
 
     /// Everything that a continued run needs.
     fn state(&self) -> NamedTensors;

@@ -28,6 +28,7 @@ mod recipe;
 mod run;
 mod run_folder;
 mod samples;
+mod session;
 mod source;
 mod summary;
 mod task;
@@ -39,6 +40,7 @@ pub use recipe::{
     CacheRecipe, Decay, LightMix, LightSettings, Network, NormalSettings, OptimiserRecipe,
     PublishedChoice, PublishedRecipe, Schedule, TrainRecipe,
 };
-pub use run::{TrainEvent, TrainRun, train};
+pub use run::{TrainRun, train};
+pub use session::TrainEvent;
 pub use summary::{Best, RunState, Summary};
 pub use training_loop::StepReport;

@@ -152,9 +152,9 @@ impl Task for LightTask {
                 &mut Quiet,
             ))?;
             sum += mean_light_error(&lights, &sample.lights)?;
-            intensity += f64::from(intensity_error(&lights, &sample.lights)?);
+            intensity += intensity_error(&lights, &sample.lights)?;
         }
-        let intensity = intensity / objects.len() as f64;
+        let intensity = intensity / objects.len() as f32;
         Ok(Validation {
             degrees: (sum / objects.len() as f32).to_degrees(),
             figures: BTreeMap::from([("intensity_error".to_owned(), intensity)]),

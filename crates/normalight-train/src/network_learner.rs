@@ -12,6 +12,9 @@ use burn::tensor::Device;
 use normalight_model::Weights;
 use normalight_synth::Sample;
 
+/// Name of the file that holds the best weights.
+pub(crate) const RESULT: &str = "weights.safetensors";
+
 /// Names of the parts of a checkpoint.
 const WEIGHT: &str = "weight";
 const AVERAGE: &str = "average";
@@ -75,7 +78,6 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
 
 impl<T: Task> Learner for NetworkLearner<'_, T> {
     type Batch = Batch;
-    const RESULT: &'static str = "weights.safetensors";
 
     fn learn(&mut self, batch: &Batch, step: usize) -> Result<Learned, TrainError> {
         let loss = T::loss(self.recipe, &self.network, batch, &self.training);
@@ -102,8 +104,10 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
         T::validate(self.recipe, &self.judged(), &self.objects, self.device)
     }
 
-    fn result(&self) -> Result<Vec<u8>, TrainError> {
-        T::bytes(self.recipe, &self.judged())
+    fn result(&self) -> Result<Option<Vec<u8>>, TrainError> {
+        let bytes = T::bytes(self.recipe, &self.judged())?;
+        // Weights that leave the range of half precision become infinite in the file.
+        Ok(Weights::from_bytes(RESULT, &bytes).is_ok().then_some(bytes))
     }
 
     fn state(&self) -> NamedTensors {

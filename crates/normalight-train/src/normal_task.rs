@@ -150,7 +150,7 @@ impl Task for NormalTask {
             let error = normal_error(&normals, &sample.to_normal_map(), &mask)?;
             sum += error.mean;
             for (share, found) in shares.iter_mut().zip(error.shares) {
-                *share += f64::from(found) / objects.len() as f64;
+                *share += found / objects.len() as f32;
             }
         }
         let names = ["under_11_25", "under_22_5", "under_30"];

@@ -1,19 +1,16 @@
 //! A training run from its recipe to its summary.
-use crate::checkpoint::{self, Standing};
-use crate::learner::Learner;
 use crate::light_task::LightTask;
-use crate::loader::Batches;
 use crate::model_card::model_card;
-use crate::network_learner::NetworkLearner;
+use crate::network_learner::{NetworkLearner, RESULT};
 use crate::normal_task::NormalTask;
 use crate::predicted::{Predictor, read_weights};
 use crate::recipe::MOST_GIGABYTES;
-use crate::run_folder::{Found, RunFolder};
 use crate::samples::SampleMaker;
+use crate::session::{Job, Session, TrainEvent, run_job};
 use crate::source::Source;
 use crate::task::Task;
-use crate::training_loop::{Pace, StepReport, train_loop};
-use crate::{Network, RunState, Summary, TrainError, TrainRecipe};
+use crate::training_loop::Pace;
+use crate::{Network, Summary, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -36,15 +33,6 @@ pub struct TrainRun {
     pub command: String,
 }
 
-/// What happens during a run.
-#[derive(Debug, Clone, PartialEq)]
-pub enum TrainEvent {
-    /// Something a person should know.
-    Note(String),
-    /// A step.
-    Step(StepReport),
-}
-
 /// Trains as the recipe says; `observe` is called after every step and may then stop the run, which
 /// writes a checkpoint and can be continued. Its answers to notes are ignored.
 ///
@@ -61,136 +49,73 @@ pub fn train(
     device: &Device,
     mut observe: impl FnMut(TrainEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
-    run.recipe.validate()?;
-    let folder = RunFolder::open(&run.folder)?;
-    let note = match folder.find(&run.recipe, run.resume)? {
-        Found::Begun(note) => note,
-        Found::Finished(summary) => {
-            let _ = observe(TrainEvent::Note(
-                "finished already, nothing is left to do".into(),
-            ));
-            return Ok(summary);
-        }
-    };
-    let mut standing = Standing::start();
-    let mut session = Session {
-        run,
-        device,
-        folder: &folder,
-        standing: &mut standing,
-        observe: &mut observe,
-    };
-    let result = match run.recipe.network {
-        Network::Light => session.train::<LightTask>(note),
-        Network::Normal => session.train::<NormalTask>(note),
-    };
-    let state = match &result {
-        Ok(ControlFlow::Continue(())) => RunState::Finished,
-        Ok(ControlFlow::Break(())) => RunState::Interrupted,
-        Err(_) => RunState::Failed,
-    };
-    let weights = folder.read("weights.safetensors");
-    let summary = Summary::new(&run.recipe, &standing, state, weights.as_deref());
-    if let Err(error) = result {
-        if folder.has_run() {
-            folder.log(&format!("error: {error}"));
-            // The error itself matters more than one in telling about it, on a full disk say.
-            let _ = folder.write_summary(&summary.failed(&error));
-        } else {
-            folder.abandon();
-        }
-        return Err(error);
-    }
-    if state == RunState::Finished {
-        let card = model_card(&run.recipe, &summary, &run.command);
-        folder.write("model-card.md", card.as_bytes())?;
-    }
-    folder.log(match state {
-        RunState::Finished => "finished",
-        _ => "interrupted",
-    });
-    folder.write_summary(&summary)?;
-    Ok(summary)
-}
-
-/// What the parts of a run share.
-struct Session<'a, O> {
-    run: &'a TrainRun,
-    device: &'a Device,
-    folder: &'a RunFolder,
-    standing: &'a mut Standing,
-    observe: &'a mut O,
-}
-
-impl<O: FnMut(TrainEvent) -> ControlFlow<()>> Session<'_, O> {
-    fn train<T: Task>(&mut self, note: Option<String>) -> Result<ControlFlow<()>, TrainError> {
-        let recipe = &self.run.recipe;
-        // Before anything is written: a file that the recipe names may be missing.
-        let source = Arc::new(Source::open(recipe, T::FRAMING)?);
-        let mix = &recipe.normal.lights;
-        let predictor = (recipe.network == Network::Normal && mix.predicted > 0.0)
-            .then(|| Predictor::new(mix.light_weights.as_deref(), self.device))
-            .transpose()?;
-        let mut learner = NetworkLearner::<T>::new(recipe, self.device)?;
-        let notes = self.prepare(&mut learner)?;
-        self.folder.clean();
-        self.folder.write_recipe(recipe)?;
-        for note in note.into_iter().chain(notes) {
-            self.folder.log(&note);
-            let _ = (self.observe)(TrainEvent::Note(note));
-        }
-        let weights = self.folder.read(NetworkLearner::<T>::RESULT);
-        let state = RunState::Running;
-        let summary = Summary::new(recipe, self.standing, state, weights.as_deref());
-        self.folder.write_summary(&summary)?;
-        let pixels = match recipe.network {
-            Network::Light => recipe.size,
-            Network::Normal => VALIDATION_PIXELS,
-        };
-        learner.validate_on(source.validation_objects(recipe, pixels)?);
-        let maker = SampleMaker::<T>::new(recipe, &source, predictor);
-        let (threads, first) = (threads(recipe), self.standing.step);
-        let mut batches = Batches::start(&maker, threads, first, recipe.steps);
-        let pace = Pace {
+    let recipe = &run.recipe;
+    recipe.validate()?;
+    let job = Job {
+        folder: run.folder.clone(),
+        resume: run.resume,
+        recipe: recipe.to_toml()?,
+        network: recipe.network,
+        parameters: recipe.parameters(),
+        seed: recipe.seed,
+        pace: Pace {
             steps: recipe.steps,
             validate_every: recipe.validate_every,
             checkpoint_every: recipe.checkpoint_every,
             batch: recipe.batch,
-        };
-        let observe = &mut *self.observe;
-        let observe = |report| observe(TrainEvent::Step(report));
-        let (folder, standing) = (self.folder, &mut *self.standing);
-        train_loop(&mut learner, &mut batches, folder, pace, standing, observe)
+        },
+        result: RESULT,
+    };
+    let card = |summary: &Summary| model_card(recipe, summary, &run.command);
+    match recipe.network {
+        Network::Light => run_job(
+            &job,
+            &mut observe,
+            |session| train_network::<LightTask, _>(recipe, device, session),
+            card,
+        ),
+        Network::Normal => run_job(
+            &job,
+            &mut observe,
+            |session| train_network::<NormalTask, _>(recipe, device, session),
+            card,
+        ),
     }
+}
 
-    /// Continues from a checkpoint, or starts from weights or at random; tells which.
-    fn prepare<T: Task>(
-        &mut self,
-        learner: &mut NetworkLearner<T>,
-    ) -> Result<Vec<String>, TrainError> {
-        let recipe = &self.run.recipe;
-        let path = self.folder.path();
-        if self.run.resume && checkpoint::exists(path) {
-            let loaded = checkpoint::load(path)?;
-            let step = loaded.standing.step;
-            let refused = |reason| TrainError::Checkpoint {
-                path: path.join("checkpoint.safetensors"),
-                reason,
-            };
-            learner.restore(loaded.tensors, step).map_err(refused)?;
-            *self.standing = loaded.standing;
-            let continued = format!("continued after step {step} of {}", recipe.steps);
-            return Ok(loaded.note.into_iter().chain([continued]).collect());
-        }
-        let start = match &recipe.init {
-            Some(init) => {
-                learner.start_from(&read_weights(init)?)?;
-                format!("started from {}", init.display())
-            }
-            None => format!("started with random weights of seed {}", recipe.seed),
+fn train_network<T, O>(
+    recipe: &TrainRecipe,
+    device: &Device,
+    session: &mut Session<O>,
+) -> Result<ControlFlow<()>, TrainError>
+where
+    T: Task,
+    O: FnMut(TrainEvent) -> ControlFlow<()>,
+{
+    // Before anything is written: a file that the recipe names may be missing.
+    let source = Arc::new(Source::open(recipe, T::FRAMING)?);
+    let mix = &recipe.normal.lights;
+    let predictor = (recipe.network == Network::Normal && mix.predicted > 0.0)
+        .then(|| Predictor::new(mix.light_weights.as_deref(), device))
+        .transpose()?;
+    let mut learner = NetworkLearner::<T>::new(recipe, device)?;
+    session.begin(&mut learner, |learner| {
+        let Some(init) = &recipe.init else {
+            return Ok(format!(
+                "started with random weights of seed {}",
+                recipe.seed
+            ));
         };
-        Ok(vec![start])
-    }
+        learner.start_from(&read_weights(init)?)?;
+        Ok(format!("started from {}", init.display()))
+    })?;
+    let pixels = match recipe.network {
+        Network::Light => recipe.size,
+        Network::Normal => VALIDATION_PIXELS,
+    };
+    learner.validate_on(source.validation_objects(recipe, pixels)?);
+    let maker = SampleMaker::<T>::new(recipe, &source, predictor);
+    session.go(&mut learner, &maker, threads(recipe))
 }
 
 /// Threads that make samples: one core is left to the training, and no more memory is taken than a

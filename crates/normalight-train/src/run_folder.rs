@@ -1,6 +1,7 @@
 //! The folder of a run: one process at a time, files only when complete.
 use crate::recipe::{Difference, differences};
-use crate::{Summary, TrainError, TrainRecipe, checkpoint};
+use crate::session::Job;
+use crate::{Summary, TrainError, checkpoint};
 use normalight_io::write_files;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -17,6 +18,8 @@ const ASIDE: &str = ".normalight-";
 /// A run's folder, locked.
 pub(crate) struct RunFolder {
     path: PathBuf,
+    /// Name of the file that holds the best result.
+    result: &'static str,
     /// Holds the lock while it is open.
     _lock: File,
 }
@@ -34,7 +37,8 @@ impl RunFolder {
     ///
     /// # Errors
     /// [`TrainError::Locked`], or [`TrainError::File`].
-    pub(crate) fn open(path: &Path) -> Result<Self, TrainError> {
+    pub(crate) fn open(job: &Job) -> Result<Self, TrainError> {
+        let path = &job.folder;
         let failed = |source| TrainError::File {
             path: path.to_owned(),
             source,
@@ -55,6 +59,7 @@ impl RunFolder {
         }
         Ok(Self {
             path: path.to_owned(),
+            result: job.result,
             _lock: lock,
         })
     }
@@ -66,8 +71,8 @@ impl RunFolder {
     /// Compares what is here with the run that is asked for.
     ///
     /// # Errors
-    /// [`TrainError::OtherRecipe`]; [`TrainError::Unfinished`] unless `resume`.
-    pub(crate) fn find(&self, recipe: &TrainRecipe, resume: bool) -> Result<Found, TrainError> {
+    /// [`TrainError::OtherRecipe`]; [`TrainError::Unfinished`] unless the job is to be continued.
+    pub(crate) fn find(&self, job: &Job) -> Result<Found, TrainError> {
         let file = self.path.join(RECIPE);
         let unfinished = || TrainError::Unfinished {
             path: self.path.clone(),
@@ -75,15 +80,17 @@ impl RunFolder {
         let text = match std::fs::read_to_string(&file) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                if checkpoint::exists(&self.path) && !resume {
+                if checkpoint::exists(&self.path) && !job.resume {
                     return Err(unfinished());
                 }
                 return Ok(Found::Begun(None));
             }
             Err(source) => return Err(TrainError::File { path: file, source }),
         };
-        let before = TrainRecipe::parse(&file.display().to_string(), &text)?;
-        let found = differences(&before, recipe);
+        let found = differences(&text, &job.recipe).map_err(|error| TrainError::Recipe {
+            file: file.display().to_string(),
+            reason: error.to_string(),
+        })?;
         let other: Vec<String> = found
             .iter()
             .filter(|difference| !difference.is_free())
@@ -96,11 +103,11 @@ impl RunFolder {
             });
         }
         if let Some(summary) = self.summary()
-            && summary.is_end_of(recipe)
+            && summary.is_end_of(job.pace.steps)
         {
             return Ok(Found::Finished(summary));
         }
-        if !resume {
+        if !job.resume {
             return Err(unfinished());
         }
         let found: Vec<String> = found.iter().map(Difference::to_string).collect();
@@ -132,8 +139,18 @@ impl RunFolder {
     }
 
     /// Keeps the recipe beside the results.
-    pub(crate) fn write_recipe(&self, recipe: &TrainRecipe) -> Result<(), TrainError> {
-        self.write(RECIPE, recipe.to_toml()?.as_bytes())
+    pub(crate) fn write_recipe(&self, recipe: &str) -> Result<(), TrainError> {
+        self.write(RECIPE, recipe.as_bytes())
+    }
+
+    /// Keeps the best result.
+    pub(crate) fn write_result(&self, bytes: &[u8]) -> Result<(), TrainError> {
+        self.write(self.result, bytes)
+    }
+
+    /// The best result so far.
+    pub(crate) fn result(&self) -> Option<Vec<u8>> {
+        std::fs::read(self.path.join(self.result)).ok()
     }
 
     pub(crate) fn write_summary(&self, summary: &Summary) -> Result<(), TrainError> {
@@ -143,11 +160,6 @@ impl RunFolder {
     fn summary(&self) -> Option<Summary> {
         let bytes = std::fs::read(self.path.join(SUMMARY)).ok()?;
         serde_json::from_slice(&bytes).ok()
-    }
-
-    /// Content of a file, if it can be read.
-    pub(crate) fn read(&self, name: &str) -> Option<Vec<u8>> {
-        std::fs::read(self.path.join(name)).ok()
     }
 
     /// Writes a file, which appears when it is complete.

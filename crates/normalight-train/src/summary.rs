@@ -1,6 +1,7 @@
 //! `summary.json`: how a run stands, for job schedulers and workflow engines.
 use crate::checkpoint::{Standing, hash_of};
-use crate::{Network, TrainError, TrainRecipe};
+use crate::session::Job;
+use crate::{Network, TrainError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ pub struct Best {
     pub degrees: f32,
     /// More about it: shares of pixels under 11.25, 22.5 and 30 degrees for the normal network
     /// (`under_11_25` and so on), `intensity_error` for the light network.
-    pub figures: BTreeMap<String, f64>,
+    pub figures: BTreeMap<String, f32>,
 }
 
 /// Everything that a script wants to know of a run; the content of `summary.json`.
@@ -69,7 +70,7 @@ pub struct Summary {
 impl Summary {
     /// `weights`: content of the weights file, where there is one.
     pub(crate) fn new(
-        recipe: &TrainRecipe,
+        job: &Job,
         standing: &Standing,
         state: RunState,
         weights: Option<&[u8]>,
@@ -84,17 +85,17 @@ impl Summary {
             state,
             reason: None,
             exit_code,
-            network: recipe.network,
-            parameters: recipe.parameters(),
-            seed: recipe.seed,
+            network: job.network,
+            parameters: job.parameters,
+            seed: job.seed,
             steps: standing.step,
-            steps_planned: recipe.steps,
+            steps_planned: job.pace.steps,
             best: standing.best.clone(),
             loss: standing.loss,
-            hours: standing.seconds / 3600.0,
-            hours_waited: standing.waited / 3600.0,
+            hours: hours(standing.seconds),
+            hours_waited: hours(standing.waited),
             weights_sha256: weights.map(hash_of),
-            recipe_sha256: hash_of(recipe.to_toml().unwrap_or_default().as_bytes()),
+            recipe_sha256: hash_of(job.recipe.as_bytes()),
             version: env!("CARGO_PKG_VERSION").to_owned(),
         }
     }
@@ -107,9 +108,9 @@ impl Summary {
         self
     }
 
-    /// Whether nothing of the recipe is left to do.
-    pub(crate) fn is_end_of(&self, recipe: &TrainRecipe) -> bool {
-        self.state == RunState::Finished && self.steps >= recipe.steps
+    /// Whether nothing is left to do of so many steps.
+    pub(crate) fn is_end_of(&self, steps: usize) -> bool {
+        self.state == RunState::Finished && self.steps >= steps
     }
 
     pub(crate) fn to_json(&self) -> String {
@@ -117,4 +118,9 @@ impl Summary {
         // Numbers and text always become JSON.
         json.unwrap_or_default() + "\n"
     }
+}
+
+/// Seconds as hours; more digits than these would only be noise.
+fn hours(seconds: f64) -> f64 {
+    (seconds / 3600.0 * 1e6).round() / 1e6
 }

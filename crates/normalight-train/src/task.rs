@@ -13,7 +13,7 @@ pub(crate) struct Validation {
     /// Mean error in degrees; it decides which weights are the best.
     pub(crate) degrees: f32,
     /// More about it, by name.
-    pub(crate) figures: BTreeMap<String, f64>,
+    pub(crate) figures: BTreeMap<String, f32>,
 }
 
 /// What is particular to the training of one of the networks.

@@ -144,12 +144,21 @@ fn validate<L: Learner>(
     });
     curves::write(folder.path(), points)?;
     let better = |best: &Best| validation.degrees < best.degrees;
-    if validation.degrees.is_finite() && standing.best.as_ref().is_none_or(better) {
-        folder.write(L::RESULT, &learner.result()?)?;
+    if validation.degrees.is_finite()
+        && standing.best.as_ref().is_none_or(better)
+        && let Some(result) = learner.result()?
+    {
+        folder.write_result(&result)?;
         standing.best = Some(Best {
             step: standing.step,
             degrees: validation.degrees,
-            figures: validation.figures.clone(),
+            // JSON has no word for other numbers.
+            figures: validation
+                .figures
+                .iter()
+                .filter(|(_, value)| value.is_finite())
+                .map(|(name, value)| (name.clone(), *value))
+                .collect(),
         });
     }
     Ok(validation)

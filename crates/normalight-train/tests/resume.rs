@@ -132,7 +132,8 @@ fn a_checkpoint_without_the_tower_is_refused_by_name() {
     let text = format!("{NORMAL}steps = 4\n[normal]\nauxiliary_weight = 0.0\n");
     run(folder.path(), &recipe(&text), false, Some(2)).unwrap();
     let with = recipe(&text.replace("0.0", "0.4"));
-    std::fs::write(folder.path().join("recipe.toml"), with.to_toml().unwrap()).unwrap();
+    let kept = folder.path().join("recipe.toml");
+    std::fs::write(kept, with.to_toml().unwrap()).unwrap();
     let message = run(folder.path(), &with, true, None)
         .unwrap_err()
         .to_string();

@@ -1,6 +1,5 @@
-use super::TrainRecipe;
 use std::collections::BTreeMap;
-use toml::Value;
+use toml::{Table, Value};
 
 /// What may change when a run is continued: how long it runs and how often it reports, but not what
 /// it computes.
@@ -33,25 +32,29 @@ impl std::fmt::Display for Difference {
     }
 }
 
-/// All settings in which two recipes differ, in the order of their names.
-pub(crate) fn differences(before: &TrainRecipe, now: &TrainRecipe) -> Vec<Difference> {
-    let (before, now) = (flat(before), flat(now));
+/// All settings in which two recipes, as TOML, differ, in the order of their names.
+///
+/// # Errors
+/// A text that is not TOML.
+pub(crate) fn differences(before: &str, now: &str) -> Result<Vec<Difference>, toml::de::Error> {
+    let (before, now) = (flat(before)?, flat(now)?);
     let missing = "not given".to_owned();
     let mut keys: Vec<&String> = before.keys().chain(now.keys()).collect();
     keys.sort();
     keys.dedup();
-    keys.into_iter()
+    let keys = keys.into_iter();
+    Ok(keys
         .filter(|key| before.get(*key) != now.get(*key))
         .map(|key| Difference {
             key: key.clone(),
             before: before.get(key).unwrap_or(&missing).clone(),
             now: now.get(key).unwrap_or(&missing).clone(),
         })
-        .collect()
+        .collect())
 }
 
 /// Dotted keys and their values as text.
-fn flat(recipe: &TrainRecipe) -> BTreeMap<String, String> {
+fn flat(recipe: &str) -> Result<BTreeMap<String, String>, toml::de::Error> {
     fn visit(prefix: &str, value: &Value, found: &mut BTreeMap<String, String>) {
         match value {
             Value::Table(table) => {
@@ -70,9 +73,10 @@ fn flat(recipe: &TrainRecipe) -> BTreeMap<String, String> {
         }
     }
     let mut found = BTreeMap::new();
-    // A recipe that can be read can be written.
-    if let Ok(value) = Value::try_from(recipe) {
-        visit("", &value, &mut found);
-    }
-    found
+    visit(
+        "",
+        &Value::Table(toml::from_str::<Table>(recipe)?),
+        &mut found,
+    );
+    Ok(found)
 }
