@@ -1,4 +1,4 @@
-//! Ctrl-C: the first asks the work to end in good order, the second ends it at once.
+//! Ctrl-C and SIGTERM: the first asks the work to end in good order, the second ends it at once.
 use crate::INTERRUPTED;
 use crate::terminal::note;
 use anyhow::{Context, Result};

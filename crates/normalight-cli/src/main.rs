@@ -18,6 +18,7 @@ mod train;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use normalight_train::TrainError;
 use std::process::ExitCode;
 use terminal::note;
 
@@ -31,7 +32,7 @@ enum Outcome {
     Interrupted,
 }
 
-/// What shells expect of a program that Ctrl-C ended.
+/// What shells expect of a program that Ctrl-C ended; also for SIGTERM.
 const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
@@ -53,7 +54,10 @@ fn main() -> ExitCode {
         }
         Err(error) => {
             note(&format!("error: {error:#}"));
-            ExitCode::FAILURE
+            match error.downcast_ref::<TrainError>() {
+                Some(error) => ExitCode::from(error.exit_code()),
+                None => ExitCode::FAILURE,
+            }
         }
     }
 }

@@ -6,26 +6,14 @@ use crate::terminal::{note, print};
 use crate::{device, interrupt, progress};
 use anyhow::{Context, Result, bail};
 use indicatif::ProgressBar;
-use normalight_train::{StepReport, TrainError, TrainRecipe, TrainRun, train};
-use std::path::Path;
+use normalight_train::{
+    RunState, StepReport, Summary, TrainError, TrainEvent, TrainRecipe, TrainRun, train,
+};
+use std::path::{Path, PathBuf};
 
 /// Trains until the recipe's last step or Ctrl-C.
 pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
-    let recipe = read_recipe(&args.recipe)?;
-    if recipe.network != args.network.into() {
-        bail!(
-            "{}: this recipe does not train the {} network",
-            args.recipe.display(),
-            word(args.network)
-        );
-    }
-    let checkpoint = args.out.join("checkpoint.safetensors");
-    if checkpoint.exists() && !args.resume {
-        bail!(
-            "{}: a run is here already; continue it with --resume or choose another folder",
-            args.out.display()
-        );
-    }
+    let recipe = recipe(args)?;
     let device = device::open(args.device)?.device;
     if !args.quiet {
         let parameters = recipe.parameters();
@@ -37,39 +25,68 @@ pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
     let mut monitor = Monitor::new(&recipe, args.quiet);
     let run = TrainRun {
         recipe,
-        folder: args.out.clone(),
+        folder: args.run.clone(),
         resume: args.resume,
+        command: std::env::args().collect::<Vec<_>>().join(" "),
     };
-    let best = train(&run, &device, |report| {
-        monitor.show(report);
+    let summary = train(&run, &device, |event| {
+        monitor.show(event);
         interrupt::answer()
     })?;
     monitor.bar.finish_and_clear();
-    let finished = monitor
-        .last_step
-        .is_none_or(|step| step == run.recipe.steps);
-    if !finished {
+    if summary.state != RunState::Finished {
         if !args.quiet {
             note("checkpoint written; continue with --resume");
         }
         return Ok(Outcome::Interrupted);
     }
     if !args.quiet {
-        let weights = args.out.join("weights.safetensors");
-        print(&format!(
-            "best validation error: {best:.2} degrees\nweights: {}\n",
-            weights.display()
-        ))?;
+        print(&result(&summary, &args.run.join("weights.safetensors")))?;
     }
     Ok(Outcome::Done)
 }
 
-fn read_recipe(path: &Path) -> Result<TrainRecipe> {
-    match TrainRecipe::read(path) {
+/// The recipe file and what the arguments change in it.
+fn recipe(args: &TrainArgs) -> Result<TrainRecipe> {
+    let path = &args.recipe;
+    let mut recipe = match TrainRecipe::read(path) {
         // These name the file themselves.
-        Err(error @ (TrainError::File { .. } | TrainError::Recipe { .. })) => Err(error.into()),
-        recipe => recipe.with_context(|| path.display().to_string()),
+        Err(error @ (TrainError::File { .. } | TrainError::Recipe { .. })) => {
+            return Err(error.into());
+        }
+        recipe => recipe.with_context(|| path.display().to_string())?,
+    };
+    if recipe.network != args.network.into() {
+        bail!(
+            "{}: this recipe does not train the {} network",
+            path.display(),
+            word(args.network)
+        );
     }
+    recipe.seed = args.seed.unwrap_or(recipe.seed);
+    if let Some(threads) = args.threads {
+        recipe.loader_threads = Some(threads as usize);
+    }
+    if let Some(init) = &args.init {
+        let init: PathBuf = std::path::absolute(init).unwrap_or_else(|_| init.clone());
+        recipe.init = Some(init);
+    }
+    Ok(recipe)
+}
+
+/// What a person wants to know at the end.
+fn result(summary: &Summary, weights: &Path) -> String {
+    let best = match &summary.best {
+        Some(best) => format!("{:.2} degrees at step {}", best.degrees, best.step),
+        None => "none".to_owned(),
+    };
+    let waited = 100.0 * summary.hours_waited / summary.hours.max(1e-12);
+    format!(
+        "best validation error: {best}\nhours: {:.2} ({waited:.0} % waiting for samples)\n\
+         weights: {}\n",
+        summary.hours,
+        weights.display()
+    )
 }
 
 /// Shows how the training goes: a bar on a terminal, a line for each validation elsewhere.
@@ -78,7 +95,7 @@ struct Monitor {
     quiet: bool,
     batch: usize,
     validation: Option<f32>,
-    last_step: Option<usize>,
+    begun: bool,
 }
 
 impl Monitor {
@@ -89,21 +106,32 @@ impl Monitor {
             quiet,
             batch: recipe.batch,
             validation: None,
-            last_step: None,
+            begun: false,
         }
     }
 
-    fn show(&mut self, report: StepReport) {
+    fn show(&mut self, event: TrainEvent) {
+        match event {
+            TrainEvent::Step(report) => self.step(report),
+            TrainEvent::Note(text) if !self.quiet => self.bar.suspend(|| note(&text)),
+            TrainEvent::Note(_) => {}
+        }
+    }
+
+    fn step(&mut self, report: StepReport) {
         self.bar.set_position(report.step as u64);
-        if self.last_step.is_none() {
+        if !self.begun {
             // Steps of an earlier run must not count for the speed.
             self.bar.reset_eta();
+            self.begun = true;
         }
-        self.last_step = Some(report.step);
         self.validation = report.validation.or(self.validation);
         let speed = self.bar.per_sec() * self.batch as f64;
+        let best = report
+            .best
+            .map_or(String::new(), |best| format!(" (best {best:.2})"));
         let validation = self.validation.map_or(String::new(), |error| {
-            format!("  validation {error:.2} (best {:.2}) degrees", report.best)
+            format!("  validation {error:.2}{best} degrees")
         });
         let line = format!("loss {:.4}{validation}  {speed:.1} samples/s", report.loss);
         if report.validation.is_some() && self.bar.is_hidden() && !self.quiet {

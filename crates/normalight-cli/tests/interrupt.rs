@@ -1,9 +1,10 @@
-//! Ctrl-C ends the work in good order.
+//! Ctrl-C and SIGTERM end the work in good order; a killed training can be continued.
 #![cfg(unix)]
 mod common;
 
 use common::*;
 use normalight_synth::{Framing, Renderer, SceneRecipe};
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -17,13 +18,15 @@ fn start(arguments: &[&str]) -> Child {
 }
 
 /// Presses Ctrl-C once the work has begun.
-fn interrupt_when(mut child: Child, begun: impl Fn() -> bool) -> Output {
-    while !begun() {
-        assert!(child.try_wait().unwrap().is_none(), "ended by itself");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+fn interrupt_when(child: Child, begun: impl Fn() -> bool) -> Output {
+    signal_when(child, "-INT", begun)
+}
+
+/// Sends a signal once the work has begun.
+fn signal_when(mut child: Child, signal: &str, begun: impl Fn() -> bool) -> Output {
+    wait_for(&mut child, begun);
     let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args([signal, &child.id().to_string()])
         .status()
         .unwrap();
     assert!(sent.success());
@@ -63,31 +66,92 @@ fn an_interrupted_estimate_leaves_all_as_it_was() {
     assert_eq!(earlier, "earlier");
 }
 
-#[test]
-fn an_interrupted_training_can_be_continued() {
-    let place = tempfile::tempdir().unwrap();
-    let (recipe, out) = (place.path().join("recipe.toml"), place.path().join("run"));
-    let text = "network = \"normal\"\nsteps = 100000\nsize = 16\nbatch = 2\nimages = [3, 4]\n\
-                validation_objects = 1\n";
+/// A tiny run of many steps; its recipe and where it goes.
+fn tiny_run(place: &Path, name: &str, steps: usize) -> (PathBuf, Vec<String>) {
+    let (recipe, run) = (place.join("recipe.toml"), place.join(name));
+    let text = format!(
+        "network = \"normal\"\nsteps = {steps}\nsize = 16\nbatch = 2\nimages = [3, 4]\n\
+         validation_objects = 1\nvalidate_every = 40\ncheckpoint_every = 5\n\
+         [optimiser]\naverage = 0.9\n"
+    );
     std::fs::write(&recipe, text).unwrap();
     let arguments = [
         "train",
         "normal",
         "--recipe",
         path(&recipe),
-        "--out",
-        path(&out),
+        "--run",
+        path(&run),
     ];
-    // A run keeps its recipe before the first step.
-    let kept = out.join("recipe.toml");
-    let run = || start(&[&arguments[..], &["--resume", "--device", "cpu"]].concat());
-    let output = interrupt_when(run(), || kept.exists());
-    assert_eq!(output.status.code(), Some(130));
-    let checkpoint = out.join("checkpoint.safetensors");
-    assert!(String::from_utf8_lossy(&output.stderr).contains("--resume"));
-    let before = std::fs::read(&checkpoint).unwrap();
-    std::fs::remove_file(&kept).unwrap();
-    let output = interrupt_when(run(), || kept.exists());
-    assert_eq!(output.status.code(), Some(130));
-    assert_ne!(before, std::fs::read(&checkpoint).unwrap());
+    let more = ["--resume", "--device", "cpu"];
+    let arguments = arguments.into_iter().chain(more).map(str::to_owned);
+    let arguments = arguments.collect();
+    (run, arguments)
+}
+
+fn start_run(arguments: &[String]) -> Child {
+    start(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+/// Waits until the run has something.
+fn wait_for(child: &mut Child, begun: impl Fn() -> bool) {
+    while !begun() {
+        assert!(child.try_wait().unwrap().is_none(), "ended by itself");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn an_interrupted_training_can_be_continued() {
+    let place = tempfile::tempdir().unwrap();
+    let (run, arguments) = tiny_run(place.path(), "run", 100_000);
+    let checkpoint = run.join("checkpoint.safetensors");
+    let mut steps = 0;
+    for signal in ["-INT", "-TERM"] {
+        let before = std::fs::read(&checkpoint).ok();
+        let child = start_run(&arguments);
+        let output = signal_when(child, signal, || std::fs::read(&checkpoint).ok() != before);
+        assert_eq!(output.status.code(), Some(130), "{signal}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("--resume"));
+        let summary = read_json(&run.join("summary.json"));
+        assert_eq!(summary["state"], "interrupted");
+        assert_eq!(summary["exit_code"], 130);
+        let taken = summary["steps"].as_u64().unwrap();
+        assert!(taken > steps, "{taken} steps");
+        steps = taken;
+    }
+}
+
+/// Killed twice without any warning, a run still ends with the weights of one that was left alone.
+#[test]
+fn a_killed_training_loses_nothing_but_time() {
+    let place = tempfile::tempdir().unwrap();
+    let (alone, arguments) = tiny_run(place.path(), "alone", 200);
+    assert!(start_run(&arguments).wait().unwrap().success());
+    let (killed, arguments) = tiny_run(place.path(), "killed", 200);
+    let checkpoint = killed.join("checkpoint.safetensors");
+    for _ in 0..2 {
+        let before = std::fs::read(&checkpoint).ok();
+        let mut child = start_run(&arguments);
+        wait_for(&mut child, || std::fs::read(&checkpoint).ok() != before);
+        // SIGKILL on Unix.
+        child.kill().unwrap();
+        assert!(!child.wait().unwrap().success());
+        assert_eq!(read_json(&killed.join("summary.json"))["state"], "running");
+    }
+    assert!(start_run(&arguments).wait().unwrap().success());
+    let log = std::fs::read_to_string(killed.join("log.txt")).unwrap();
+    assert_eq!(log.matches("continued after step").count(), 2, "{log}");
+    let weights = |run: &Path| std::fs::read(run.join("weights.safetensors")).unwrap();
+    assert!(weights(&alone) == weights(&killed));
+    let best = |run: &Path| read_json(&run.join("summary.json"))["best"].clone();
+    assert_eq!(best(&alone), best(&killed));
+    let curves = |run: &Path| -> Vec<String> {
+        let text = std::fs::read_to_string(run.join("curves.csv")).unwrap();
+        let lines = text.lines();
+        // But for the seconds.
+        let fields = lines.map(|line| line.split(',').take(4).collect::<Vec<_>>().join(","));
+        fields.collect()
+    };
+    assert_eq!(curves(&alone), curves(&killed));
 }

@@ -1,5 +1,6 @@
 use crate::{CoreError, Light, Mask, NormalMap, angle_between};
 use glam::Vec3;
+use std::f32::consts::FRAC_PI_2;
 
 /// How far normals are from the truth, over the pixels of an object.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +45,8 @@ pub fn normal_error(
     Ok(normal_error_between(pairs))
 }
 
-/// Mean angular error over pairs of (estimate, truth); pairs whose truth is zero are left out.
+/// Mean angular error over pairs of (estimate, truth); pairs whose truth is zero are left out, and an
+/// estimate of zero, which says nothing, counts as a right angle.
 pub fn normal_error_between(pairs: impl IntoIterator<Item = (Vec3, Vec3)>) -> NormalError {
     const LIMITS: [f32; 3] = [11.25, 22.5, 30.0];
     let mut sum = 0.0f64;
@@ -54,7 +56,11 @@ pub fn normal_error_between(pairs: impl IntoIterator<Item = (Vec3, Vec3)>) -> No
         if truth == Vec3::ZERO {
             continue;
         }
-        let angle = angle_between(estimate, truth);
+        let angle = if estimate == Vec3::ZERO {
+            FRAC_PI_2
+        } else {
+            angle_between(estimate, truth)
+        };
         sum += f64::from(angle);
         pixels += 1;
         for (count, limit) in under.iter_mut().zip(LIMITS) {
@@ -156,5 +162,12 @@ mod tests {
         let error = normal_error_between([(Vec3::Z, Vec3::ZERO), (Vec3::X, Vec3::Z)]);
         assert_eq!(error.pixels, 1);
         assert!((error.mean.to_degrees() - 90.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_network_that_says_nothing_is_not_a_good_one() {
+        let error = normal_error_between([(Vec3::ZERO, Vec3::Z), (Vec3::Z, Vec3::Z)]);
+        assert!((error.mean.to_degrees() - 45.0).abs() < 1e-4);
+        assert_eq!(error.shares, [0.5; 3]);
     }
 }

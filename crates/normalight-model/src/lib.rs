@@ -8,12 +8,14 @@
 )]
 
 mod architecture;
+mod auxiliary_tower;
 mod cell;
 mod cost;
 mod defaults;
 mod error;
 mod estimator;
 mod genotype;
+mod header;
 mod layers;
 mod light_network;
 mod light_stage;
@@ -28,6 +30,7 @@ pub use architecture::{
     Architecture, CellLight, CellNormal, LightArchitecture, LightBody, NormalArchitecture,
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
+pub use auxiliary_tower::AuxiliaryTower;
 pub use cost::{NetworkCost, light_cost, normal_cost};
 pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;

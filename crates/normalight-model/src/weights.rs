@@ -1,3 +1,4 @@
+use crate::header::sorted;
 use crate::{
     Architecture, LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork,
 };
@@ -293,6 +294,7 @@ fn encode<M: Module>(
         })
         .collect::<Result<Vec<_>, ModelError>>()?;
     safetensors::serialize(views, Some(metadata))
+        .map(sorted)
         .map_err(|error| ModelError::Device(error.to_string()))
 }
 

@@ -48,6 +48,16 @@ pub enum SynthError {
         /// What should be there.
         expected: &'static str,
     },
+    /// A file of a stored scene has other contents than expected.
+    #[error("{name}: {found} found, {expected} expected")]
+    Stored {
+        /// The file.
+        name: String,
+        /// What is there.
+        found: String,
+        /// What should be there.
+        expected: String,
+    },
     /// Photographs that cannot be made a scene of.
     #[error(transparent)]
     Photographs(#[from] normalight_core::CoreError),

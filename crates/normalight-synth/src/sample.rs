@@ -1,4 +1,4 @@
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use normalight_core::{
     CoreError, ImageStack, Light, Mask, NormalMap, Samples, StackImage, Transfer,
 };
@@ -29,6 +29,10 @@ pub struct Sample {
     /// One light per image; directions from the object's middle. Intensities are those of the scene: the
     /// camera's exposure scales all images by one more factor.
     pub lights: Vec<Light>,
+    /// Which of the scene's lamps each image was taken under.
+    pub lamps: Vec<usize>,
+    /// Takes directions of the scene to those of the sample: crops are turned and mirrored.
+    pub axes: Mat3,
 }
 
 /// Bits per value of exported images.
@@ -51,6 +55,8 @@ impl Sample {
             normals: vec![Vec3::ZERO; area],
             depth: vec![f32::NAN; area],
             lights: Vec::new(),
+            lamps: Vec::new(),
+            axes: Mat3::IDENTITY,
         }
     }
 

@@ -3,6 +3,7 @@ mod crops;
 mod framing;
 mod photographs;
 mod points;
+mod stored;
 mod symmetry;
 
 pub use photographs::Labelled;
@@ -151,6 +152,23 @@ impl Scene {
         }
     }
 
+    /// Number of lamps it was rendered with.
+    pub fn lamps(&self) -> usize {
+        self.lamps.len()
+    }
+
+    /// The same object under the same lamps for other samples: `seed` decides the order of the lamps,
+    /// crops, brightness and cameras anew.
+    pub fn reseeded(mut self, seed: u64) -> Self {
+        let count = self.lamps.len();
+        let order = Random::new(seed, Stream::Lights).some_of(count, count);
+        self.lamps = order.iter().map(|&lamp| self.lamps[lamp]).collect();
+        let radiance = order.iter().map(|&l| std::mem::take(&mut self.radiance[l]));
+        self.radiance = radiance.collect();
+        self.seed = seed;
+        self
+    }
+
     /// Photographs of the whole picture under the first `images` lamps (at most those rendered).
     pub fn whole(&self, images: usize) -> Sample {
         let mut random = Random::new(self.seed, Stream::Camera);
@@ -226,6 +244,8 @@ impl Scene {
         }
         self.develop(&mut light, &pixels, &mut sample, random);
         sample.lights = lights;
+        sample.lamps = chosen.to_vec();
+        sample.axes = symmetry.axes();
         sample
     }
 

@@ -1,40 +1,71 @@
-use crate::TrainError;
-use crate::adam::{Adam, host};
-use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
-use burn::tensor::{Tensor, TensorData};
+//! Checkpoints: everything a run needs to go on, in two files of which one is always whole.
+use crate::named_tensors::NamedTensors;
+use crate::{Best, TrainError};
+use normalight_io::write_files;
 use safetensors::SafeTensors;
 use safetensors::tensor::{Dtype, TensorView};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Where a run stands, beside its numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The newest checkpoint, the one before it, and the name under which a new one is written.
+const NEWEST: &str = "checkpoint.safetensors";
+const BEFORE: &str = "checkpoint-before.safetensors";
+const NEXT: &str = "checkpoint-next.safetensors";
+
+/// Where a run stands, beside its tensors.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Standing {
     /// Steps taken.
     pub(crate) step: usize,
-    /// Best validation error in degrees.
-    pub(crate) best: f32,
+    /// Best validation so far.
+    pub(crate) best: Option<Best>,
+    /// Loss of the last step.
+    pub(crate) loss: Option<f32>,
+    /// Sum of the losses since the last validation, and their number. In f32, which comes back from
+    /// JSON exactly.
+    pub(crate) recent: (f32, usize),
+    /// Seconds of training in all, and how many of them were spent waiting for samples.
+    pub(crate) seconds: f64,
+    pub(crate) waited: f64,
 }
 
-/// Writes weights and optimiser state to one file, aside first.
-pub(crate) fn save<M: Module>(
-    path: &Path,
-    network: &M,
-    adam: &Adam,
-    standing: Standing,
-) -> Result<(), TrainError> {
-    let mut collector = Collector::default();
-    network.visit(&mut collector);
-    let mut tensors: BTreeMap<String, Vec<u8>> = BTreeMap::new();
-    let bytes = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect();
-    for (name, values) in &collector.tensors {
-        tensors.insert(format!("weight/{name}"), bytes(values));
-    }
-    for (name, moments) in &adam.moments {
-        for (order, values) in moments.iter().enumerate() {
-            tensors.insert(format!("moment{order}/{name}"), bytes(values));
+impl Standing {
+    pub(crate) fn start() -> Self {
+        Self {
+            step: 0,
+            best: None,
+            loss: None,
+            recent: (0.0, 0),
+            seconds: 0.0,
+            waited: 0.0,
         }
     }
+}
+
+/// Whether a run has left a checkpoint.
+pub(crate) fn exists(folder: &Path) -> bool {
+    folder.join(NEWEST).exists() || folder.join(BEFORE).exists()
+}
+
+/// Writes a checkpoint; the newest so far becomes the one before.
+pub(crate) fn save(
+    folder: &Path,
+    tensors: &NamedTensors,
+    standing: &Standing,
+) -> Result<(), TrainError> {
+    let newest = folder.join(NEWEST);
+    let failed = |reason: String| TrainError::Checkpoint {
+        path: newest.clone(),
+        reason,
+    };
+    let bytes =
+        |values: &[f32]| -> Vec<u8> { values.iter().flat_map(|v| v.to_le_bytes()).collect() };
+    let tensors: BTreeMap<&String, Vec<u8>> = tensors
+        .iter()
+        .map(|(name, values)| (name, bytes(values)))
+        .collect();
     let views = tensors
         .iter()
         .map(|(name, bytes)| {
@@ -42,137 +73,185 @@ pub(crate) fn save<M: Module>(
             view.map(|view| (name.as_str(), view))
         })
         .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| damaged(path, &error.to_string()))?;
-    let metadata = HashMap::from([
-        ("step".to_owned(), standing.step.to_string()),
-        ("best".to_owned(), standing.best.to_string()),
-    ]);
-    let file = safetensors::serialize(views, Some(metadata))
-        .map_err(|error| damaged(path, &error.to_string()))?;
-    write_aside(path, &file)
+        .map_err(|error| failed(error.to_string()))?;
+    let standing = serde_json::to_string(standing).map_err(|error| failed(error.to_string()))?;
+    let hash = hash(
+        tensors
+            .iter()
+            .map(|(name, bytes)| (name.as_str(), &bytes[..])),
+    );
+    let metadata = HashMap::from([("standing".to_owned(), standing), ("hash".to_owned(), hash)]);
+    let file =
+        safetensors::serialize(views, Some(metadata)).map_err(|error| failed(error.to_string()))?;
+    write_files(folder, &[(NEXT, file)])?;
+    let rename = |from: &str, to: &str| {
+        std::fs::rename(folder.join(from), folder.join(to)).map_err(|source| TrainError::File {
+            path: folder.join(to),
+            source,
+        })
+    };
+    if newest.exists() {
+        rename(NEWEST, BEFORE)?;
+    }
+    rename(NEXT, NEWEST)
 }
 
-/// Continues from a checkpoint.
-pub(crate) fn load<M: Module>(path: &Path, network: M) -> Result<(M, Adam, Standing), TrainError> {
+/// What was read, and what is to be said about it.
+#[derive(Debug)]
+pub(crate) struct Loaded {
+    pub(crate) tensors: NamedTensors,
+    pub(crate) standing: Standing,
+    /// The file.
+    pub(crate) path: PathBuf,
+    /// Why it is not the newest checkpoint.
+    pub(crate) note: Option<String>,
+}
+
+/// Reads the newest checkpoint, or the one before where the newest is damaged.
+pub(crate) fn load(folder: &Path) -> Result<Loaded, TrainError> {
+    let read = |name: &str| {
+        let path = folder.join(name);
+        let (tensors, standing) = read(&path)?;
+        Ok(Loaded {
+            tensors,
+            standing,
+            path,
+            note: None,
+        })
+    };
+    read(NEWEST).or_else(|newest: TrainError| match read(BEFORE) {
+        Ok(loaded) => Ok(Loaded {
+            note: Some(format!("{newest}; the checkpoint before it is used")),
+            ..loaded
+        }),
+        // What is wrong with the newest says more.
+        Err(_) => Err(newest),
+    })
+}
+
+fn read(path: &Path) -> Result<(NamedTensors, Standing), TrainError> {
     let bytes = std::fs::read(path).map_err(|source| TrainError::File {
         path: path.to_owned(),
         source,
     })?;
-    let broken = |reason: &str| damaged(path, reason);
-    let file = SafeTensors::deserialize(&bytes).map_err(|error| broken(&error.to_string()))?;
-    let (_, header) =
-        SafeTensors::read_metadata(&bytes).map_err(|error| broken(&error.to_string()))?;
-    let metadata = header.metadata().clone().unwrap_or_default();
-    let number = |key: &str| metadata.get(key).ok_or_else(|| broken("metadata missing"));
-    let standing = Standing {
-        step: number("step")?.parse().map_err(|_| broken("bad step"))?,
-        best: number("best")?.parse().map_err(|_| broken("bad error"))?,
+    let broken = |reason: String| TrainError::Checkpoint {
+        path: path.to_owned(),
+        reason,
     };
-    let mut tensors: BTreeMap<String, Vec<f32>> = BTreeMap::new();
-    for (name, view) in file.iter() {
+    let file = SafeTensors::deserialize(&bytes).map_err(|error| broken(error.to_string()))?;
+    let (_, header) =
+        SafeTensors::read_metadata(&bytes).map_err(|error| broken(error.to_string()))?;
+    let metadata = header.metadata().clone().unwrap_or_default();
+    let entry = |key: &str| {
+        let missing = || {
+            broken(format!(
+                "no {key} in its metadata: not a checkpoint of this version"
+            ))
+        };
+        metadata.get(key).ok_or_else(missing)
+    };
+    let standing = serde_json::from_str(entry("standing")?)
+        .map_err(|error| broken(format!("standing: {error}")))?;
+    let views: BTreeMap<String, TensorView> = file.tensors().into_iter().collect();
+    let found = hash(
+        views
+            .iter()
+            .map(|(name, view)| (name.as_str(), view.data())),
+    );
+    if found != *entry("hash")? {
+        return Err(broken("its numbers are not those that were written".into()));
+    }
+    let mut tensors = NamedTensors::new();
+    for (name, view) in views {
+        if view.dtype() != Dtype::F32 {
+            return Err(broken(format!("tensor {name} is not f32")));
+        }
         let values = view.data().chunks_exact(4);
         let values = values.map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
-        tensors.insert(name.to_owned(), values.collect());
+        tensors.insert(name, values.collect());
     }
-    let mut loader = Loader {
-        tensors: &mut tensors,
-        path: Vec::new(),
-        missing: None,
-    };
-    let network = network.map(&mut loader);
-    if let Some(name) = loader.missing {
-        return Err(broken(&format!(
-            "weight {name} is missing or has another size"
-        )));
-    }
-    let mut adam = Adam {
-        step: i32::try_from(standing.step).unwrap_or(i32::MAX),
-        ..Adam::default()
-    };
-    let names: Vec<String> = tensors
-        .keys()
-        .filter_map(|name| name.strip_prefix("moment0/").map(str::to_owned))
-        .collect();
-    for name in names {
-        let first = tensors
-            .remove(&format!("moment0/{name}"))
-            .unwrap_or_default();
-        let second = tensors
-            .remove(&format!("moment1/{name}"))
-            .filter(|second| second.len() == first.len())
-            .ok_or_else(|| broken(&format!("moment of {name} is missing")))?;
-        adam.moments.insert(name, [first, second]);
-    }
-    Ok((network, adam, standing))
+    Ok((tensors, standing))
 }
 
-/// Writes a file under another name, then renames it: no reader ever sees half of it.
-pub(crate) fn write_aside(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
-    let aside = path.with_extension("part");
-    let failed = |source| TrainError::File {
-        path: path.to_owned(),
-        source,
-    };
-    std::fs::write(&aside, bytes).map_err(failed)?;
-    std::fs::rename(&aside, path).map_err(failed)
+/// SHA-256 over names and values in the order of the names.
+fn hash<'a>(tensors: impl Iterator<Item = (&'a str, &'a [u8])>) -> String {
+    let mut hash = Sha256::new();
+    for (name, bytes) in tensors {
+        hash.update(name.as_bytes());
+        hash.update((bytes.len() as u64).to_le_bytes());
+        hash.update(bytes);
+    }
+    hex(&hash.finalize())
 }
 
-fn damaged(path: &Path, reason: &str) -> TrainError {
-    TrainError::Checkpoint {
-        path: path.to_owned(),
-        reason: reason.to_owned(),
-    }
+/// SHA-256 of a file's content, in hexadecimal.
+pub(crate) fn hash_of(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
 }
 
-#[derive(Default)]
-struct Collector {
-    path: Vec<String>,
-    tensors: BTreeMap<String, Vec<f32>>,
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-impl ModuleVisitor for Collector {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tensors(value: f32) -> NamedTensors {
+        NamedTensors::from([("weight/a".to_owned(), vec![value, f32::MIN_POSITIVE, -0.1])])
     }
 
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        self.tensors.insert(self.path.join("."), host(param.val()));
-    }
-}
-
-struct Loader<'a> {
-    tensors: &'a mut BTreeMap<String, Vec<f32>>,
-    path: Vec<String>,
-    missing: Option<String>,
-}
-
-impl ModuleMapper for Loader<'_> {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
-    }
-
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn map_float<const D: usize>(&mut self, param: Param<Tensor<D>>) -> Param<Tensor<D>> {
-        let name = self.path.join(".");
-        let tensor = param.val();
-        match self.tensors.remove(&format!("weight/{name}")) {
-            Some(values) if values.len() == tensor.shape().num_elements() => {
-                let data = TensorData::new(values, tensor.dims());
-                let loaded = Tensor::<D>::from_data(data, &tensor.device());
-                let tracked = tensor.is_require_grad();
-                Param::initialized(param.id, loaded.set_require_grad(tracked))
-            }
-            _ => {
-                self.missing.get_or_insert(name);
-                param
-            }
+    fn standing(step: usize) -> Standing {
+        Standing {
+            step,
+            best: Some(Best {
+                step,
+                degrees: 12.345_678,
+                figures: BTreeMap::from([("under_30".to_owned(), 0.25)]),
+            }),
+            loss: Some(0.1),
+            recent: (0.1 + 0.2, 3),
+            seconds: 0.75,
+            waited: 0.5,
         }
+    }
+
+    #[test]
+    fn numbers_come_back_exactly() {
+        let folder = tempfile::tempdir().unwrap();
+        save(folder.path(), &tensors(0.3), &standing(7)).unwrap();
+        let loaded = load(folder.path()).unwrap();
+        assert_eq!(loaded.tensors, tensors(0.3));
+        assert_eq!(loaded.standing, standing(7));
+        assert_eq!(loaded.note, None);
+    }
+
+    #[test]
+    fn the_one_before_stands_in_for_a_damaged_one() {
+        let folder = tempfile::tempdir().unwrap();
+        for step in [1, 2, 3] {
+            save(folder.path(), &tensors(step as f32), &standing(step)).unwrap();
+        }
+        let newest = folder.path().join(NEWEST);
+        let whole = std::fs::read(&newest).unwrap();
+        let mut flipped = whole.clone();
+        *flipped.last_mut().unwrap() ^= 1;
+        let cut = whole[..whole.len() - 1].to_vec();
+        for bytes in [&cut[..], &flipped[..], &[]] {
+            std::fs::write(&newest, bytes).unwrap();
+            let loaded = load(folder.path()).unwrap();
+            assert_eq!((loaded.standing.step, loaded.tensors), (2, tensors(2.0)));
+            let note = loaded.note.unwrap();
+            assert!(note.contains(NEWEST) && note.contains("before"), "{note}");
+        }
+        // Killed between the two renames.
+        std::fs::remove_file(&newest).unwrap();
+        assert!(exists(folder.path()));
+        assert_eq!(load(folder.path()).unwrap().standing.step, 2);
+        // Nothing whole is left.
+        std::fs::write(&newest, b"x").unwrap();
+        std::fs::write(folder.path().join(BEFORE), b"").unwrap();
+        let error = load(folder.path()).unwrap_err().to_string();
+        assert!(error.contains("checkpoint.safetensors"), "{error}");
     }
 }

@@ -1,86 +1,215 @@
+//! The course of a run as numbers and as a picture.
 use crate::TrainError;
-use crate::checkpoint::write_aside;
+use normalight_io::write_files;
 use plotters::prelude::*;
+use plotters::style::register_font;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::io::Cursor;
 use std::path::Path;
+use std::sync::OnceLock;
 
-/// One line of the log.
-#[derive(Debug, Clone, Copy, PartialEq)]
+const CSV: &str = "curves.csv";
+const PNG: &str = "curves.png";
+/// Size of the picture in pixels.
+const SIZE: (u32, u32) = (900, 800);
+/// Columns before those of the figures.
+const COLUMNS: &str = "step,loss,validation_degrees,learning_rate,seconds";
+
+/// One line of the table.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Point {
     pub(crate) step: usize,
     /// Mean loss since the line before.
     pub(crate) loss: f32,
     /// Validation error in degrees.
     pub(crate) error: f32,
+    /// Learning rate.
+    pub(crate) rate: f32,
     /// Seconds of training so far.
     pub(crate) seconds: f64,
+    /// More about the validation, by name.
+    pub(crate) figures: BTreeMap<String, f32>,
 }
 
 /// Writes `curves.csv` and `curves.png` into the run's folder.
 pub(crate) fn write(folder: &Path, points: &[Point]) -> Result<(), TrainError> {
-    let mut csv = String::from("step,loss,validation_degrees,seconds\n");
-    for point in points {
-        let _ = writeln!(
-            csv,
-            "{},{},{},{:.1}",
-            point.step, point.loss, point.error, point.seconds
-        );
+    let mut csv = COLUMNS.to_owned();
+    for name in points.iter().flat_map(|point| point.figures.keys()).take(
+        // All lines have the same figures.
+        points.first().map_or(0, |point| point.figures.len()),
+    ) {
+        let _ = write!(csv, ",{name}");
     }
-    write_aside(&folder.join("curves.csv"), csv.as_bytes())?;
+    csv.push('\n');
+    for point in points {
+        let Point {
+            step,
+            loss,
+            error,
+            rate,
+            seconds,
+            figures,
+        } = point;
+        let _ = write!(csv, "{step},{loss},{error},{rate},{seconds:.1}");
+        for value in figures.values() {
+            let _ = write!(csv, ",{value}");
+        }
+        csv.push('\n');
+    }
+    write_files(folder, &[(CSV, csv.into_bytes())])?;
     if points.len() < 2 {
         return Ok(());
     }
-    draw(&folder.join("curves.png"), points).map_err(|error| TrainError::Plot(error.to_string()))
+    let png = draw(points).map_err(|error| TrainError::Plot(error.to_string()))?;
+    Ok(write_files(folder, &[(PNG, png)])?)
 }
 
 /// Reads `curves.csv` back; lines that do not parse are dropped.
 pub(crate) fn read(folder: &Path) -> Vec<Point> {
-    let text = std::fs::read_to_string(folder.join("curves.csv")).unwrap_or_default();
-    text.lines()
-        .skip(1)
-        .filter_map(|line| {
-            let mut fields = line.split(',');
-            Some(Point {
-                step: fields.next()?.parse().ok()?,
-                loss: fields.next()?.parse().ok()?,
-                error: fields.next()?.parse().ok()?,
-                seconds: fields.next()?.parse().ok()?,
-            })
-        })
-        .collect()
+    let text = std::fs::read_to_string(folder.join(CSV)).unwrap_or_default();
+    let mut lines = text.lines();
+    let header = lines.next().unwrap_or_default();
+    let Some(names) = header.strip_prefix(COLUMNS) else {
+        return Vec::new();
+    };
+    let names: Vec<&str> = names.split(',').skip(1).collect();
+    lines.filter_map(|line| point(line, &names)).collect()
 }
 
-/// Loss and validation error over the steps, each on its own logarithmic panel. No text: fonts
-/// would need a system library; the CSV has the numbers.
-fn draw(path: &Path, points: &[Point]) -> Result<(), Box<dyn std::error::Error>> {
-    let aside = path.with_extension("part.png");
+fn point(line: &str, names: &[&str]) -> Option<Point> {
+    let mut fields = line.split(',');
+    Some(Point {
+        step: fields.next()?.parse().ok()?,
+        loss: fields.next()?.parse().ok()?,
+        error: fields.next()?.parse().ok()?,
+        rate: fields.next()?.parse().ok()?,
+        seconds: fields.next()?.parse().ok()?,
+        figures: names
+            .iter()
+            .map(|&name| Some((name.to_owned(), fields.next()?.parse().ok()?)))
+            .collect::<Option<_>>()?,
+    })
+}
+
+/// Loss and validation error over the steps, as a PNG.
+fn draw(points: &[Point]) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    static FONT: OnceLock<bool> = OnceLock::new();
+    let known = FONT.get_or_init(|| {
+        register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular()).is_ok()
+    });
+    if !known {
+        return Err("the font is not one".into());
+    }
+    let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
     {
-        let area = BitMapBackend::new(&aside, (900, 700)).into_drawing_area();
+        let area = BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area();
         area.fill(&WHITE)?;
         let panels = area.split_evenly((2, 1));
-        let loss: Vec<(f32, f32)> = points.iter().map(|p| (p.step as f32, p.loss)).collect();
-        let error: Vec<(f32, f32)> = points.iter().map(|p| (p.step as f32, p.error)).collect();
-        for (panel, series, colour) in [
-            (&panels[0], loss, RGBColor(31, 90, 160)),
-            (&panels[1], error, RGBColor(190, 80, 30)),
+        let series = |value: fn(&Point) -> f32| -> Vec<(f64, f64)> {
+            let pairs = points.iter().map(|p| (p.step as f64, f64::from(value(p))));
+            pairs.filter(|(_, value)| value.is_finite()).collect()
+        };
+        for (panel, title, unit, series, colour) in [
+            (
+                &panels[0],
+                "Training",
+                "mean loss",
+                series(|point| point.loss),
+                RGBColor(31, 90, 160),
+            ),
+            (
+                &panels[1],
+                "Validation on unseen objects",
+                "mean error in degrees",
+                series(|point| point.error),
+                RGBColor(190, 80, 30),
+            ),
         ] {
-            let last = series.last().map_or(1.0, |point| point.0);
-            let values = series.iter().map(|point| point.1.max(1e-4));
-            let low = values.clone().fold(f32::MAX, f32::min) * 0.95;
-            let high = values.fold(f32::MIN, f32::max) * 1.05;
-            let mut chart = ChartBuilder::on(panel)
-                .margin(20)
-                .build_cartesian_2d(0.0..last, (low..high).log_scale())?;
-            chart
-                .configure_mesh()
-                .x_labels(0)
-                .y_labels(0)
-                .light_line_style(RGBColor(230, 230, 230))
-                .draw()?;
-            chart.draw_series(LineSeries::new(series, colour.stroke_width(2)))?;
+            draw_panel(panel, title, unit, series, colour)?;
         }
         area.present()?;
     }
-    std::fs::rename(&aside, path)?;
+    let mut png = Cursor::new(Vec::new());
+    image::write_buffer_with_format(
+        &mut png,
+        &pixels,
+        SIZE.0,
+        SIZE.1,
+        image::ExtendedColorType::Rgb8,
+        image::ImageFormat::Png,
+    )?;
+    Ok(png.into_inner())
+}
+
+fn draw_panel(
+    panel: &DrawingArea<BitMapBackend, plotters::coord::Shift>,
+    title: &str,
+    unit: &str,
+    series: Vec<(f64, f64)>,
+    colour: RGBColor,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let last = series.last().map_or(1.0, |point| point.0);
+    let high = series.iter().map(|point| point.1).fold(0.0, f64::max);
+    let low = series.iter().map(|point| point.1).fold(0.0, f64::min);
+    let margin = 0.05 * (high - low).max(1e-9);
+    let mut chart = ChartBuilder::on(panel)
+        .caption(title, ("sans-serif", 20))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(70)
+        .build_cartesian_2d(0.0..last, low..high + margin)?;
+    chart
+        .configure_mesh()
+        .x_desc("step")
+        .y_desc(unit)
+        .axis_desc_style(("sans-serif", 15))
+        .label_style(("sans-serif", 13))
+        .x_label_formatter(&|step| format!("{step:.0}"))
+        .light_line_style(RGBColor(240, 240, 240))
+        .bold_line_style(RGBColor(215, 215, 215))
+        .draw()?;
+    chart.draw_series(LineSeries::new(series, colour.stroke_width(2)))?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_comes_back_and_the_picture_has_words() {
+        let folder = tempfile::tempdir().unwrap();
+        let points: Vec<Point> = (1..=40)
+            .map(|k| Point {
+                step: 250 * k,
+                loss: 0.1 + 1.0 / k as f32,
+                error: 8.0 + 40.0 / k as f32,
+                rate: 1e-3 / k as f32,
+                seconds: 10.5 * k as f64,
+                figures: BTreeMap::from([
+                    ("under_11_25".to_owned(), 0.3),
+                    ("under_30".to_owned(), 1.0 / k as f32),
+                ]),
+            })
+            .collect();
+        write(folder.path(), &points).unwrap();
+        assert_eq!(read(folder.path()), points);
+        let picture = image::open(folder.path().join(PNG)).unwrap().to_rgb8();
+        assert_eq!(picture.dimensions(), SIZE);
+        // Titles and numbers: dark pixels left of and above the curves.
+        let is_dark = |x: u32, y: u32| picture.get_pixel(x, y).0.iter().all(|v| *v < 100);
+        let dark = |xs: std::ops::Range<u32>, ys: std::ops::Range<u32>| {
+            ys.flat_map(|y| xs.clone().map(move |x| (x, y)))
+                .filter(|&(x, y)| is_dark(x, y))
+                .count()
+        };
+        assert!(dark(0..70, 60..340) > 100, "numbers of the upper axis");
+        assert!(dark(300..600, 0..36) > 100, "the title");
+        // A line that is no number is left out, the others stay.
+        let file = folder.path().join(CSV);
+        let text = std::fs::read_to_string(&file).unwrap();
+        std::fs::write(&file, text.replace("\n500,", "\nx,")).unwrap();
+        assert_eq!(read(folder.path()).len(), 39);
+    }
 }

@@ -42,13 +42,56 @@ pub enum TrainError {
         /// What is wrong.
         reason: String,
     },
-    /// The loss is no number any more; the last checkpoint is still good.
-    #[error("the loss became {loss} at step {step}; the last checkpoint is untouched")]
+    /// The loss or its gradient is no finite number any more; weights and checkpoints are untouched.
+    #[error(
+        "the {quantity} became {value} at step {step} (batch seed {batch_seed}: the number of its \
+         first scene); the best weights and the last checkpoint are kept"
+    )]
     Diverged {
-        /// Step at which it happened.
+        /// The loss, or the norm of its gradient.
+        quantity: &'static str,
+        /// What it became.
+        value: f32,
+        /// Step at which it happened, from 1.
         step: usize,
-        /// The loss.
-        loss: f32,
+        /// Number of the first scene of the batch.
+        batch_seed: u64,
+    },
+    /// Another process trains in the folder.
+    #[error("{path}: another process is training here")]
+    Locked {
+        /// The run's folder.
+        path: PathBuf,
+    },
+    /// The folder holds a run that has not come to its end.
+    #[error("{path}: a run is here already; continue it with --resume or choose another folder")]
+    Unfinished {
+        /// The run's folder.
+        path: PathBuf,
+    },
+    /// The folder holds a run of another recipe.
+    #[error("{path}: a run of another recipe is here: {differences}")]
+    OtherRecipe {
+        /// The run's folder.
+        path: PathBuf,
+        /// Every setting that differs, with both values.
+        differences: String,
+    },
+    /// A cache of other scenes.
+    #[error("{path}: {reason}")]
+    Cache {
+        /// What describes the cache.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Weights that a run cannot start from.
+    #[error("{name}: {reason}")]
+    Init {
+        /// The weights file.
+        name: String,
+        /// Why not.
+        reason: String,
     },
     /// An object of a published set has too few images or pixels for the recipe.
     #[error(
@@ -62,14 +105,14 @@ pub enum TrainError {
         expected: [usize; 2],
     },
     /// The thread that renders samples ended early.
-    #[error("the sample renderer stopped")]
+    #[error("a thread that makes samples stopped")]
     Loader,
     /// The picture of the curves could not be drawn.
     #[error("curves: {0}")]
     Plot(String),
-    /// A published training set cannot be read.
+    /// A training set cannot be read, or a file not written.
     #[error(transparent)]
-    Published(#[from] normalight_io::IoError),
+    Io(#[from] normalight_io::IoError),
     /// Scene settings out of range.
     #[error(transparent)]
     Synth(#[from] SynthError),
@@ -79,4 +122,14 @@ pub enum TrainError {
     /// Stacks and maps.
     #[error(transparent)]
     Core(#[from] CoreError),
+}
+
+impl TrainError {
+    /// The command's exit code for it: 3 when training diverged, else 1.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Diverged { .. } => 3,
+            _ => 1,
+        }
+    }
 }

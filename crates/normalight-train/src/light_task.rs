@@ -1,10 +1,12 @@
 use crate::batch::Batch;
-use crate::task::Task;
+use crate::init::{check_start, init_error};
+use crate::named_tensors::{collect, fill};
+use crate::task::{Task, Validation};
 use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
-use normalight_core::{Decoding, Light, LightBins, mean_light_error};
+use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
-use normalight_model::{LightNetwork, Quiet, Weights, estimate_lights};
+use normalight_model::{LightBody, LightNetwork, Quiet, Weights, estimate_lights};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
@@ -27,7 +29,26 @@ impl Task for LightTask {
         )?)
     }
 
-    fn append(recipe: &TrainRecipe, sample: &Sample, _seed: u64, batch: &mut Batch) {
+    fn start_from(
+        recipe: &TrainRecipe,
+        network: LightNetwork,
+        weights: &Weights,
+        device: &Device,
+    ) -> Result<LightNetwork, TrainError> {
+        let (found, stored) = weights.light_network(device)?;
+        let plain = matches!(found.body, LightBody::Plain(_));
+        check_start(weights, plain, found == recipe.light.architecture)?;
+        let filled = fill(network, &mut collect(&stored));
+        filled.map_err(|reason| init_error(weights, reason))
+    }
+
+    fn append(
+        recipe: &TrainRecipe,
+        sample: &Sample,
+        _predicted: Option<&[Light]>,
+        _seed: u64,
+        batch: &mut Batch,
+    ) {
         let area = sample.size * sample.size;
         let inside = sample.mask.iter().filter(|&&inside| inside).count();
         let sum: f32 = sample.images.iter().sum();
@@ -118,8 +139,8 @@ impl Task for LightTask {
         network: &LightNetwork,
         objects: &[Sample],
         device: &Device,
-    ) -> Result<f32, TrainError> {
-        let mut sum = 0.0;
+    ) -> Result<Validation, TrainError> {
+        let (mut sum, mut intensity) = (0.0, 0.0);
         for sample in objects {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
             let lights = pollster::block_on(estimate_lights(
@@ -132,8 +153,13 @@ impl Task for LightTask {
                 &mut Quiet,
             ))?;
             sum += mean_light_error(&lights, &sample.lights)?;
+            intensity += intensity_error(&lights, &sample.lights)?;
         }
-        Ok((sum / objects.len() as f32).to_degrees())
+        let intensity = intensity / objects.len() as f32;
+        Ok(Validation {
+            degrees: (sum / objects.len() as f32).to_degrees(),
+            figures: BTreeMap::from([("intensity_error".to_owned(), intensity)]),
+        })
     }
 
     fn bytes(recipe: &TrainRecipe, network: &LightNetwork) -> Result<Vec<u8>, TrainError> {

@@ -1,113 +1,142 @@
-use crate::batch::Batch;
-use crate::source::Source;
-use crate::task::Task;
-use crate::{TrainError, TrainRecipe};
-use normalight_synth::{Framing, Sample, Scene};
-use std::sync::Arc;
+//! Batches made ahead on threads of their own.
+use crate::TrainError;
 use std::sync::mpsc::{Receiver, sync_channel};
 
-/// Batches made ahead.
+/// Batches made ahead, at least.
 const AHEAD: usize = 6;
 
-/// Makes the batches of the steps from `first` on, on a thread of its own; the first error ends it.
+/// Makes the batches of a run, each from the number of its step alone: batch `k` is the same whatever
+/// was made before, so that a resumed run sees the samples that an uninterrupted one would have seen.
+pub(crate) trait BatchMaker: Send + 'static {
+    /// What the learner takes in at one step.
+    type Batch: Send + 'static;
+
+    /// One like this for another thread.
+    fn for_thread(&self) -> Self;
+
+    /// Steps in a row that share costly work and are best made by one thread.
+    fn together(&self) -> usize;
+
+    /// The batch of a step, from 0.
+    ///
+    /// # Errors
+    /// Files that cannot be read, objects that do not fit the recipe.
+    fn make(&mut self, step: usize) -> Result<Self::Batch, TrainError>;
+}
+
+/// The batches of a run in their order.
 ///
-/// Batch `k` is the same whatever was made before, so that a resumed run sees the samples that an
-/// uninterrupted one would have seen.
-pub(crate) fn start<T: Task>(
-    recipe: &TrainRecipe,
-    source: &Arc<Source>,
-    first: usize,
-) -> Receiver<Result<Batch, TrainError>> {
-    let (sender, receiver) = sync_channel(AHEAD);
-    let (recipe, source) = (recipe.clone(), Arc::clone(source));
-    std::thread::spawn(move || {
-        let mut samples = Samples::new(&recipe, &source, T::FRAMING);
-        for step in first..recipe.steps {
-            let batch = batch::<T>(&recipe, &mut samples, step);
-            let failed = batch.is_err();
-            // The receiver is gone when training stopped: nothing left to do.
-            if sender.send(batch).is_err() || failed {
-                return;
-            }
-        }
-    });
-    receiver
-}
-
-/// The samples of a run in their order.
-struct Samples<'a> {
-    recipe: &'a TrainRecipe,
-    source: &'a Source,
-    framing: Framing,
-    /// Number of the group of scenes in hand: as many as a batch has samples, so that the samples of a
-    /// batch are of different scenes while each scene gives several.
-    group: Option<usize>,
-    scenes: Vec<Scene>,
-}
-
-impl<'a> Samples<'a> {
-    fn new(recipe: &'a TrainRecipe, source: &'a Source, framing: Framing) -> Self {
-        Self {
-            recipe,
-            source,
-            framing,
-            group: None,
-            scenes: Vec::new(),
-        }
-    }
-
-    /// Sample `k` of a step.
-    fn get(&mut self, step: usize, k: usize, images: usize) -> Result<Sample, TrainError> {
-        let recipe = self.recipe;
-        let scene = |number: u64, images: usize| {
-            let (source, framing) = (self.source, self.framing);
-            source.scene(recipe, number, images, recipe.size, framing)
-        };
-        if self.framing == Framing::WholeObject {
-            return Ok(scene(seed(recipe, step, k), images)?.whole(images));
-        }
-        let parts = recipe.scene.sampling.crops_per_scene;
-        let group = step / parts;
-        if self.group != Some(group) {
-            let scenes = (0..recipe.batch).map(|k| scene(seed(recipe, group, k), recipe.images[1]));
-            self.scenes = scenes.collect::<Result<_, _>>()?;
-            self.group = Some(group);
-        }
-        Ok(self.scenes[k].crop(step % parts, images))
-    }
-}
-
-fn seed(recipe: &TrainRecipe, major: usize, minor: usize) -> u64 {
-    (recipe.seed << 44) + (major * recipe.batch + minor) as u64
-}
-
-fn batch<T: Task>(
-    recipe: &TrainRecipe,
-    samples: &mut Samples,
+/// Groups of steps go round the threads; each has a bounded queue of its own, so neither the order nor
+/// the batches depend on how many threads there are or how fast.
+pub(crate) struct Batches<B> {
+    queues: Vec<Receiver<Result<B, TrainError>>>,
+    together: usize,
     step: usize,
-) -> Result<Batch, TrainError> {
-    let [fewest, most] = recipe.images;
-    // A cheap scramble of the step: any fixed order of counts would do.
-    let images = fewest + step.wrapping_mul(2_654_435_761) / 7 % (most - fewest + 1);
-    let mut batch = Batch {
-        samples: 0,
-        images,
-        size: recipe.size,
-        channels: T::channels(recipe),
-        input: Vec::new(),
-        target: Vec::new(),
-    };
-    for k in 0..recipe.batch {
-        let sample = samples.get(step, k, images)?;
-        if sample.lights.len() != images || sample.size != recipe.size {
-            return Err(TrainError::Sample {
-                found: [sample.lights.len(), sample.size],
-                expected: [images, recipe.size],
-            });
+}
+
+impl<B: Send + 'static> Batches<B> {
+    /// Starts to make the batches of the steps from `first` to before `end`; the first error ends a
+    /// thread.
+    pub(crate) fn start<M>(maker: &M, threads: usize, first: usize, end: usize) -> Self
+    where
+        M: BatchMaker<Batch = B>,
+    {
+        let together = maker.together().max(1);
+        let queues = (0..threads)
+            .map(|thread| {
+                let (sender, receiver) = sync_channel(together.max(AHEAD.div_ceil(threads)));
+                let mut maker = maker.for_thread();
+                std::thread::spawn(move || {
+                    for step in (first..end).filter(|step| step / together % threads == thread) {
+                        let batch = maker.make(step);
+                        let failed = batch.is_err();
+                        // The receiver is gone when training stopped: nothing left to do.
+                        if sender.send(batch).is_err() || failed {
+                            return;
+                        }
+                    }
+                });
+                receiver
+            })
+            .collect();
+        Self {
+            queues,
+            together,
+            step: first,
         }
-        T::append(recipe, &sample, seed(recipe, step, k), &mut batch);
-        batch.samples += 1;
     }
-    batch.finish();
-    Ok(batch)
+
+    /// The batch of the next step.
+    ///
+    /// # Errors
+    /// What the maker met, or [`TrainError::Loader`] when its thread is gone.
+    pub(crate) fn next(&mut self) -> Result<B, TrainError> {
+        let thread = self.step / self.together % self.queues.len();
+        self.step += 1;
+        self.queues[thread].recv().map_err(|_| TrainError::Loader)?
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashMap;
+    use std::sync::{Arc, Mutex};
+    use std::thread::{ThreadId, current};
+
+    /// Remembers which thread made which group; the first steps take longest.
+    #[derive(Clone, Default)]
+    struct Squares(Arc<Mutex<HashMap<usize, ThreadId>>>);
+
+    impl BatchMaker for Squares {
+        type Batch = usize;
+
+        fn for_thread(&self) -> Self {
+            self.clone()
+        }
+
+        fn together(&self) -> usize {
+            4
+        }
+
+        fn make(&mut self, step: usize) -> Result<usize, TrainError> {
+            if step < 12 {
+                std::thread::sleep(std::time::Duration::from_millis(12 - step as u64));
+            }
+            let mut groups = self.0.lock().unwrap();
+            assert_eq!(
+                *groups.entry(step / 4).or_insert(current().id()),
+                current().id()
+            );
+            if step == 90 {
+                return Err(TrainError::Plot("stop".into()));
+            }
+            Ok(step * step)
+        }
+    }
+
+    #[test]
+    fn order_and_batches_do_not_depend_on_the_threads() {
+        for threads in [1, 2, 5, 40] {
+            let maker = Squares::default();
+            let mut batches = Batches::start(&maker, threads, 7, 100);
+            for step in 7..90 {
+                assert_eq!(batches.next().unwrap(), step * step);
+            }
+            assert_eq!(batches.next().unwrap_err().to_string(), "curves: stop");
+            let groups = maker.0.lock().unwrap();
+            let used: std::collections::HashSet<_> = groups.values().collect();
+            assert_eq!(used.len(), threads.min(groups.len()));
+        }
+    }
+
+    #[test]
+    fn nothing_is_made_beyond_the_queues() {
+        let maker = Squares::default();
+        let mut batches = Batches::start(&maker, 2, 0, 1_000_000);
+        batches.next().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(200));
+        // Four or so waiting in each queue and one in the hands of each thread.
+        assert!(maker.0.lock().unwrap().len() <= 4);
+    }
 }

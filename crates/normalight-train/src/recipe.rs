@@ -1,5 +1,19 @@
+//! Everything that decides a training run.
+mod check;
+mod difference;
+mod genotype;
+mod networks;
+mod optimiser;
+mod sources;
+
+pub(crate) use check::MOST_GIGABYTES;
+pub(crate) use difference::{Difference, differences};
+pub use networks::{LightMix, LightSettings, NormalSettings};
+pub use optimiser::{Decay, OptimiserRecipe, Schedule};
+pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
+
 use crate::TrainError;
-use normalight_model::{LightArchitecture, NormalArchitecture, light_cost, normal_cost};
+use normalight_model::{light_cost, normal_cost};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -12,6 +26,16 @@ pub enum Network {
     Light,
     /// The normal estimation network.
     Normal,
+}
+
+impl Network {
+    /// The word for it: `light` or `normal`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Light => "light",
+            Self::Normal => "normal",
+        }
+    }
 }
 
 /// Everything that decides a training run; one TOML file.
@@ -30,21 +54,12 @@ pub struct TrainRecipe {
     pub images: [usize; 2],
     /// Side of the training pictures in pixels: crops for normals, whole objects for lights.
     pub size: usize,
-    /// Highest learning rate of Adam.
-    #[serde(default = "defaults::learning_rate")]
-    pub learning_rate: f32,
-    /// Steps over which the rate rises from zero.
-    #[serde(default = "defaults::warm_up")]
-    pub warm_up: usize,
-    /// The rate falls along a cosine to this share of the highest.
-    #[serde(default = "defaults::final_rate")]
-    pub final_rate: f32,
-    /// Largest norm of the gradient over all weights.
-    #[serde(default = "defaults::clip")]
-    pub clip: f32,
     /// Seed of weights and samples.
     #[serde(default)]
     pub seed: u64,
+    /// Weights to start from instead of random ones: of the same network, without normalisation layers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub init: Option<PathBuf>,
     /// Steps between validations on unseen objects.
     #[serde(default = "defaults::validate_every")]
     pub validate_every: usize,
@@ -54,9 +69,19 @@ pub struct TrainRecipe {
     /// Steps between checkpoints.
     #[serde(default = "defaults::checkpoint_every")]
     pub checkpoint_every: usize,
+    /// Threads that make samples; by default one fewer than there are cores. The samples do not depend
+    /// on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loader_threads: Option<usize>,
+    /// How weights follow gradients.
+    #[serde(default)]
+    pub optimiser: OptimiserRecipe,
     /// What the samples show.
     #[serde(default)]
     pub scene: SceneRecipe,
+    /// Keep rendered scenes in a folder and use them again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cache: Option<CacheRecipe>,
     /// Train on a published set instead of rendered scenes; brightness and camera still come from `scene`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub published: Option<PublishedRecipe>,
@@ -68,96 +93,12 @@ pub struct TrainRecipe {
     pub normal: NormalSettings,
 }
 
-/// A set in the layout of Blobby and Sculpture.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PublishedRecipe {
-    /// Its folder, where `train_mtrl.txt` lies.
-    pub folder: PathBuf,
-    /// Which part of it.
-    #[serde(default)]
-    pub part: PublishedChoice,
-}
-
-/// Which part of a published set to train on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PublishedChoice {
-    /// All of it: the set's own split, or 99 % and 1 %.
-    #[default]
-    Train,
-    /// As in the paper's search: a tenth of it at 64x64, split by shape.
-    Search,
-}
-
-/// Settings of the light network and its loss.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct LightSettings {
-    /// The network.
-    pub architecture: LightArchitecture,
-    /// Deviation of the Gaussian labels, in classes.
-    pub label_deviation: f32,
-    /// Weight of 1 - cos of the expected direction.
-    pub direction_weight: f32,
-    /// Weight of the squared error of the logarithm of the expected intensity.
-    pub intensity_weight: f32,
-}
-
-impl Default for LightSettings {
-    fn default() -> Self {
-        Self {
-            architecture: LightArchitecture::plain(),
-            label_deviation: 1.0,
-            direction_weight: 5.0,
-            intensity_weight: 0.5,
-        }
-    }
-}
-
-/// Settings of the normal network and of the errors in the lights it is trained with.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct NormalSettings {
-    /// The network.
-    pub architecture: NormalArchitecture,
-    /// Deviation of each light by itself, in degrees.
-    pub light_noise_degrees: f32,
-    /// Deviation of a drift common to all lights of a sample, in degrees.
-    pub light_drift_degrees: f32,
-    /// Relative deviation of intensities.
-    pub intensity_noise: f32,
-}
-
-impl Default for NormalSettings {
-    fn default() -> Self {
-        Self {
-            architecture: NormalArchitecture::plain(),
-            light_noise_degrees: 3.0,
-            light_drift_degrees: 3.0,
-            intensity_noise: 0.05,
-        }
-    }
-}
-
 mod defaults {
     pub(super) fn batch() -> usize {
         16
     }
     pub(super) fn images() -> [usize; 2] {
         [6, 16]
-    }
-    pub(super) fn learning_rate() -> f32 {
-        1e-3
-    }
-    pub(super) fn warm_up() -> usize {
-        50
-    }
-    pub(super) fn final_rate() -> f32 {
-        0.03
-    }
-    pub(super) fn clip() -> f32 {
-        5.0
     }
     pub(super) fn validate_every() -> usize {
         250
@@ -171,146 +112,69 @@ mod defaults {
 }
 
 impl TrainRecipe {
-    /// Reads and checks a recipe file; paths in it start at its folder.
+    /// Reads and checks a recipe file; paths in it start at its folder and come out absolute.
     ///
     /// # Errors
     /// [`TrainError::File`], [`TrainError::Recipe`] or [`TrainError::Value`].
     pub fn read(path: &Path) -> Result<Self, TrainError> {
-        let text = std::fs::read_to_string(path).map_err(|source| TrainError::File {
+        let failed = |source| TrainError::File {
             path: path.to_owned(),
             source,
-        })?;
-        let mut recipe = Self::parse(&path.display().to_string(), &text)?;
+        };
+        let text = std::fs::read_to_string(path).map_err(failed)?;
         let folder = path.parent().unwrap_or(Path::new(""));
+        let mut recipe = Self::parse_in(folder, &path.display().to_string(), &text)?;
+        // A run may be continued from another folder than it was begun in.
+        let folder = std::path::absolute(path).map_err(failed)?;
+        let folder = folder.parent().unwrap_or(Path::new(""));
         recipe.scene.resolve_paths(folder);
-        if let Some(published) = &mut recipe.published {
-            published.folder = folder.join(&published.folder);
+        let mut paths: Vec<&mut PathBuf> = Vec::new();
+        paths.extend(recipe.published.as_mut().map(|set| &mut set.folder));
+        paths.extend(recipe.cache.as_mut().map(|cache| &mut cache.folder));
+        paths.extend(recipe.normal.lights.light_weights.as_mut());
+        paths.extend(recipe.init.as_mut());
+        for path in paths {
+            *path = folder.join(&*path);
         }
         Ok(recipe)
     }
 
-    /// Parses and checks a recipe.
+    /// Parses and checks a recipe; a genotype file in it is looked for in the current folder.
     ///
     /// # Errors
-    /// [`TrainError::Recipe`] or [`TrainError::Value`].
+    /// [`TrainError::Recipe`] or [`TrainError::Value`]; those of a genotype file.
     pub fn parse(file: &str, text: &str) -> Result<Self, TrainError> {
-        let recipe: Self = toml::from_str(text).map_err(|error| TrainError::Recipe {
+        Self::parse_in(Path::new(""), file, text)
+    }
+
+    fn parse_in(folder: &Path, file: &str, text: &str) -> Result<Self, TrainError> {
+        let failed = |error: toml::de::Error| TrainError::Recipe {
             file: file.to_owned(),
             reason: error.to_string(),
-        })?;
+        };
+        let mut table: toml::Table = toml::from_str(text).map_err(failed)?;
+        let recipe: Self = if genotype::read_genotypes(&mut table, folder)? {
+            table.try_into().map_err(failed)?
+        } else {
+            // From the text, for errors that show the line.
+            toml::from_str(text).map_err(failed)?
+        };
         recipe.validate()?;
         Ok(recipe)
     }
 
-    /// Scenes of a batch and validation objects are held in memory.
-    fn check_memory(&self) -> Result<(), TrainError> {
-        const EXPECTED: &str = "at most 16";
-        let lights = self.scene.sampling.lights_per_scene.max(self.images[1]);
-        let pixels = f64::from(self.scene.shapes.crop_object_pixels[1]).max(self.size as f64);
-        let scenes = (self.batch * lights * 12) as f64 * pixels * pixels / 1e9;
-        let field = "gigabytes of scenes (batch, scene.sampling.lights_per_scene, \
-                     scene.shapes.crop_object_pixels)";
-        check(field, scenes, 0.0, 16.0, EXPECTED)?;
-        let objects = (self.validation_objects * 144) as f64 * (self.size * self.size) as f64 / 1e9;
-        let field = "gigabytes of validation_objects";
-        check(field, objects, 0.0, 16.0, EXPECTED)
-    }
-
-    /// Checks every number.
+    /// The recipe as TOML.
     ///
     /// # Errors
-    /// [`TrainError::Value`], or the errors of the scene and the architectures.
-    pub fn validate(&self) -> Result<(), TrainError> {
-        let [fewest, most] = self.images;
-        check("steps", self.steps, 1, 100_000_000, "1 or more")?;
-        check("batch", self.batch, 1, 1024, "1 to 1024")?;
-        check(
-            "images, fewest",
-            fewest,
-            3,
-            most,
-            "3 or more, at most the most",
-        )?;
-        check("images, most", most, fewest, 256, "at most 256")?;
-        check("size", self.size, 16, 512, "16 to 512")?;
-        let many = 1_000_000_000;
-        check("validate_every", self.validate_every, 1, many, "1 or more")?;
-        check(
-            "checkpoint_every",
-            self.checkpoint_every,
-            1,
-            many,
-            "1 or more",
-        )?;
-        // More would not leave room for the steps in the seeds of samples.
-        check("seed", self.seed, 0, (1 << 20) - 1, "0 to 1048575")?;
-        self.check_memory()?;
-        let field = "validation_objects";
-        check(field, self.validation_objects, 1, 10_000, "1 to 10000")?;
-        check(
-            "learning_rate",
-            self.learning_rate,
-            1e-9,
-            1.0,
-            "above 0, at most 1",
-        )?;
-        check("final_rate", self.final_rate, 0.0, 1.0, "0 to 1")?;
-        check("clip", self.clip, 1e-6, 1e6, "above 0")?;
-        let light = &self.light;
-        check(
-            "light.label_deviation",
-            light.label_deviation,
-            0.1,
-            10.0,
-            "0.1 to 10",
-        )?;
-        check(
-            "light.direction_weight",
-            light.direction_weight,
-            0.0,
-            1e3,
-            "0 to 1000",
-        )?;
-        check(
-            "light.intensity_weight",
-            light.intensity_weight,
-            0.0,
-            1e3,
-            "0 to 1000",
-        )?;
-        let normal = &self.normal;
-        let field = "normal.light_noise_degrees";
-        check(field, normal.light_noise_degrees, 0.0, 45.0, "0 to 45")?;
-        let field = "normal.light_drift_degrees";
-        check(field, normal.light_drift_degrees, 0.0, 45.0, "0 to 45")?;
-        check(
-            "normal.intensity_noise",
-            normal.intensity_noise,
-            0.0,
-            0.5,
-            "0 to 0.5",
-        )?;
-        self.scene.validate()?;
-        self.light.architecture.validate()?;
-        self.normal.architecture.validate()?;
-        if self.network == Network::Light && self.size != self.light.architecture.input_size {
-            return Err(TrainError::Value {
-                field: "size",
-                found: self.size.to_string(),
-                expected: "the light network's input_size",
-            });
-        }
-        if self.network == Network::Normal && !self.size.is_multiple_of(8) {
-            return Err(TrainError::Value {
-                field: "size",
-                found: self.size.to_string(),
-                expected: "a multiple of 8",
-            });
-        }
-        Ok(())
+    /// [`TrainError::Recipe`], for a path that is not Unicode.
+    pub fn to_toml(&self) -> Result<String, TrainError> {
+        toml::to_string(self).map_err(|error| TrainError::Recipe {
+            file: "recipe.toml".into(),
+            reason: error.to_string(),
+        })
     }
 
-    /// Number of trainable parameters of the network that is trained.
+    /// Number of trainable parameters of the network that is trained, the auxiliary tower left out.
     pub fn parameters(&self) -> usize {
         match self.network {
             Network::Light => light_cost(&self.light.architecture).parameters,
@@ -318,62 +182,67 @@ impl TrainRecipe {
         }
     }
 
-    /// Learning rate of a step: linear warm-up, then half a cosine.
-    pub fn rate(&self, step: usize) -> f32 {
-        let rise = ((step + 1) as f32 / self.warm_up.max(1) as f32).min(1.0);
-        let done = (step as f32 / self.steps as f32).min(1.0);
-        let cosine = 0.5 + 0.5 * (std::f32::consts::PI * done).cos();
-        self.learning_rate * rise * (self.final_rate + (1.0 - self.final_rate) * cosine)
+    /// Learning rate of a step, from 0.
+    pub(crate) fn rate(&self, step: usize) -> f32 {
+        self.optimiser.rate(step, self.steps)
     }
-}
-
-fn check<T: PartialOrd + std::fmt::Display>(
-    field: &'static str,
-    found: T,
-    low: T,
-    high: T,
-    expected: &'static str,
-) -> Result<(), TrainError> {
-    // NaN compares false and is refused.
-    if found >= low && found <= high {
-        return Ok(());
-    }
-    Err(TrainError::Value {
-        field,
-        found: found.to_string(),
-        expected,
-    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const GOOD: &str = "network = \"normal\"\nsteps = 10\nsize = 32\n";
+
     #[test]
     fn bad_recipes_are_refused_with_the_reason() {
-        let good = "network = \"normal\"\nsteps = 10\nsize = 32\n";
-        assert!(TrainRecipe::parse("r.toml", good).is_ok());
+        assert!(TrainRecipe::parse("r.toml", GOOD).is_ok());
         for (text, part) in [
             ("stepz = 3\n", "unknown field `stepz`"),
             ("batch = 0\n", "batch is 0, expected 1 to 1024"),
-            ("learning_rate = nan\n", "learning_rate is NaN"),
             ("images = [9, 5]\n", "images, fewest is 9"),
+            ("loader_threads = 0\n", "loader_threads is 0"),
+            ("[optimiser]\nlearning_rate = nan\n", "learning_rate is NaN"),
+            ("[normal.lights]\npredicted = 0.5\n", "normal.lights is 1.5"),
             ("[scene.lights]\nrectangle = -1.0\n", "lights"),
+            ("[cache]\nfolder = \"c\"\nscenes = 0\n", "cache.scenes is 0"),
+            (
+                "[cache]\nfolder = \"c\"\nscenes = 9\n[published]\nfolder = \"p\"\n",
+                "cache is given beside published",
+            ),
         ] {
-            let error = TrainRecipe::parse("r.toml", &format!("{good}{text}")).unwrap_err();
+            let error = TrainRecipe::parse("r.toml", &format!("{GOOD}{text}")).unwrap_err();
             assert!(error.to_string().contains(part), "{error}");
         }
-        let light = good.replace("normal", "light");
+        let light = GOOD.replace("normal", "light");
         let error = TrainRecipe::parse("r.toml", &light).unwrap_err();
         assert!(error.to_string().contains("size is 32"), "{error}");
     }
 
     #[test]
-    fn the_rate_rises_and_falls() {
-        let text = "network = \"normal\"\nsteps = 1000\nsize = 32\n";
-        let recipe = TrainRecipe::parse("r.toml", text).unwrap();
-        assert!(recipe.rate(0) < 3e-5);
-        assert!((recipe.rate(50) - 1e-3).abs() < 1e-5);
-        assert!((recipe.rate(1000) - 3e-5).abs() < 1e-7);
+    fn recipes_are_written_as_they_are_read() {
+        let text = format!(
+            "{GOOD}init = \"w\"\n[cache]\nfolder = \"c\"\nscenes = 9\n[normal.lights]\n\
+             true = 0.2\nperturbed = 0.5\npredicted = 0.3\n"
+        );
+        let recipe = TrainRecipe::parse("r.toml", &text).unwrap();
+        let again = TrainRecipe::parse("r.toml", &recipe.to_toml().unwrap()).unwrap();
+        assert_eq!(recipe, again);
+        let texts = [recipe, again].map(|recipe| recipe.to_toml().unwrap());
+        assert_eq!(differences(&texts[0], &texts[1]).unwrap(), []);
+    }
+
+    #[test]
+    fn differences_name_key_and_values() {
+        let before = TrainRecipe::parse("r.toml", GOOD).unwrap();
+        let mut now = before.clone();
+        now.optimiser.learning_rate = 0.5;
+        now.steps = 20;
+        let [before, now] = [before, now].map(|recipe| recipe.to_toml().unwrap());
+        let found = differences(&before, &now).unwrap();
+        let keys: Vec<_> = found.iter().map(|one| one.key.as_str()).collect();
+        assert_eq!(keys, ["optimiser.learning_rate", "steps"]);
+        assert!(!found[0].is_free() && found[1].is_free());
+        assert_eq!(found[1].to_string(), "steps was 10, is 20");
     }
 }

@@ -1,5 +1,5 @@
-use crate::recipe::PublishedChoice;
-use crate::{TrainError, TrainRecipe};
+use crate::cache::SceneCache;
+use crate::{PublishedChoice, TrainError, TrainRecipe};
 use normalight_io::{PublishedEntry, PublishedSet, PublishedSplit};
 use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene, scrambled};
 
@@ -13,7 +13,7 @@ const SEARCH_SIDE: usize = 64;
 
 /// Where samples come from.
 pub(crate) enum Source {
-    Rendered(Box<Renderer>),
+    Rendered(Box<Renderer>, Option<SceneCache>),
     Published(Box<Published>),
 }
 
@@ -25,13 +25,16 @@ pub(crate) struct Published {
 }
 
 impl Source {
+    /// `framing`: what the samples will show.
+    ///
     /// # Errors
     /// The files that the recipe names.
-    pub(crate) fn open(recipe: &TrainRecipe) -> Result<Self, TrainError> {
+    pub(crate) fn open(recipe: &TrainRecipe, framing: Framing) -> Result<Self, TrainError> {
         let Some(published) = &recipe.published else {
-            return Ok(Self::Rendered(Box::new(Renderer::new(
-                recipe.scene.clone(),
-            )?)));
+            let renderer = Renderer::new(recipe.scene.clone())?;
+            let cache = recipe.cache.as_ref();
+            let cache = cache.map(|cache| SceneCache::open(cache, recipe, framing));
+            return Ok(Self::Rendered(Box::new(renderer), cache.transpose()?));
         };
         let set = PublishedSet::open(&published.folder)?;
         let split = match published.part {
@@ -55,7 +58,8 @@ impl Source {
         framing: Framing,
     ) -> Result<Scene, TrainError> {
         match self {
-            Self::Rendered(renderer) => Ok(match framing {
+            Self::Rendered(renderer, Some(cache)) => cache.scene(renderer, number, size, framing),
+            Self::Rendered(renderer, None) => Ok(match framing {
                 Framing::WholeObject => renderer.whole_scene(number, images, size),
                 Framing::Crop => renderer.crop_scene(number, images, size),
             }),
@@ -76,7 +80,7 @@ impl Source {
         let count = recipe.validation_objects;
         let numbers = (0..count as u64).map(|k| VALIDATION_NUMBERS + k);
         match self {
-            Self::Rendered(renderer) => Ok(numbers
+            Self::Rendered(renderer, _) => Ok(numbers
                 .map(|number| {
                     renderer.sample(number, VALIDATION_IMAGES, pixels, Framing::WholeObject)
                 })

@@ -2,21 +2,47 @@ use crate::batch::Batch;
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor};
+use normalight_core::Light;
+use normalight_model::Weights;
 use normalight_synth::{Framing, Sample};
+use std::collections::BTreeMap;
 
-/// What the loop needs to know of a network.
-pub(crate) trait Task: Sized {
-    /// The network being trained.
+/// Errors on unseen objects.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Validation {
+    /// Mean error in degrees; it decides which weights are the best.
+    pub(crate) degrees: f32,
+    /// More about it, by name.
+    pub(crate) figures: BTreeMap<String, f32>,
+}
+
+/// What is particular to the training of one of the networks.
+pub(crate) trait Task: Sized + 'static {
+    /// The network being trained, with whatever helps it while it is.
     type Network: Module + std::fmt::Debug;
 
     /// A network with random weights.
     fn network(recipe: &TrainRecipe, device: &Device) -> Result<Self::Network, TrainError>;
 
+    /// Puts the values of a weights file into a network.
+    fn start_from(
+        recipe: &TrainRecipe,
+        network: Self::Network,
+        weights: &Weights,
+        device: &Device,
+    ) -> Result<Self::Network, TrainError>;
+
     /// What the network is shown: whole objects or crops.
     const FRAMING: Framing;
 
-    /// Adds a sample to a batch.
-    fn append(recipe: &TrainRecipe, sample: &Sample, seed: u64, batch: &mut Batch);
+    /// Adds a sample to a batch. `predicted`: its lights as a light network sees them.
+    fn append(
+        recipe: &TrainRecipe,
+        sample: &Sample,
+        predicted: Option<&[Light]>,
+        seed: u64,
+        batch: &mut Batch,
+    );
 
     /// Input channels of the network.
     fn channels(recipe: &TrainRecipe) -> usize;
@@ -29,13 +55,13 @@ pub(crate) trait Task: Sized {
         device: &Device,
     ) -> Tensor<1>;
 
-    /// Mean error in degrees on whole unseen objects, through the pipeline that users run.
+    /// Errors on whole unseen objects, through the pipeline that users run.
     fn validate(
         recipe: &TrainRecipe,
         network: &Self::Network,
         objects: &[Sample],
         device: &Device,
-    ) -> Result<f32, TrainError>;
+    ) -> Result<Validation, TrainError>;
 
     /// The weights file of a network.
     fn bytes(recipe: &TrainRecipe, network: &Self::Network) -> Result<Vec<u8>, TrainError>;

@@ -3,7 +3,7 @@
 use burn::tensor::Device;
 use normalight_io::{ObjectToPublish, PublishedEntry, PublishedPart, PublishedWriter};
 use normalight_synth::{BitDepth, Framing, Preset, Renderer};
-use normalight_train::{TrainError, TrainRecipe, TrainRun, train};
+use normalight_train::{TrainError, TrainEvent, TrainRecipe, TrainRun, train};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -42,10 +42,13 @@ fn losses(set: &Path, part: &str, more: &str) -> Result<Vec<f32>, TrainError> {
         recipe: TrainRecipe::parse("recipe.toml", &text)?,
         folder: place.path().join("run"),
         resume: false,
+        command: String::new(),
     };
     let mut losses = Vec::new();
-    train(&run, &Device::flex(), |report| {
-        losses.push(report.loss);
+    train(&run, &Device::flex(), |event| {
+        if let TrainEvent::Step(report) = event {
+            losses.push(report.loss);
+        }
         ControlFlow::Continue(())
     })?;
     assert!(run.folder.join("weights.safetensors").exists());

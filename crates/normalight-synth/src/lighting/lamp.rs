@@ -15,7 +15,7 @@ pub(crate) struct Lamp {
     /// Unit vector from the object's middle.
     pub(crate) direction: Vec3,
     /// From the object's middle; `None` is infinitely far.
-    distance: Option<f32>,
+    pub(crate) distance: Option<f32>,
 }
 
 impl Lamp {

@@ -1,5 +1,5 @@
 use crate::random::Random;
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 /// One of the ways to turn and mirror a square picture, and the world with it; and an order of the
 /// colours.
@@ -46,6 +46,15 @@ impl Symmetry {
         };
         let mirror = |place: usize, mirrored: bool| if mirrored { size - 1 - place } else { place };
         (mirror(row, self.upside_down), mirror(column, self.mirrored))
+    }
+
+    /// Where directions go, as a matrix.
+    pub(crate) fn axes(&self) -> Mat3 {
+        Mat3::from_cols(
+            self.vector(Vec3::X),
+            self.vector(Vec3::Y),
+            self.vector(Vec3::Z),
+        )
     }
 
     /// Where a direction goes.

@@ -1,0 +1,46 @@
+use crate::layers::{convolution, convolve, convolve_doubled, convolve_row};
+use crate::{NormalArchitecture, NormalBody};
+use burn::module::Module;
+use burn::nn::conv::Conv2d;
+use burn::tensor::{Device, Tensor};
+
+/// A second way from the fused features of a normal network to normals: the regressor without its
+/// cells. Its loss reaches the features directly, while they are trained; nothing else needs it, so
+/// weights files do not hold it.
+///
+/// It grows by nearest neighbour whatever the network does.
+#[derive(Module, Debug)]
+pub struct AuxiliaryTower {
+    fused: Vec<Conv2d>,
+    up: Conv2d,
+    output: Conv2d,
+}
+
+impl AuxiliaryTower {
+    /// The tower for the fused features of this network, with random weights.
+    pub fn new(architecture: &NormalArchitecture, device: &Device) -> Self {
+        // Channels of the fused features, after the second convolution, and at full size.
+        let [fused, middle, full] = match &architecture.body {
+            NormalBody::Plain(plain) => [plain.widths[1], plain.widths[1], plain.head],
+            NormalBody::Cells(cells) => [4 * cells.width, 3 * cells.width, 2 * cells.width],
+        };
+        let conv = |channels| convolution(channels, 3, 1, device);
+        Self {
+            fused: vec![conv([fused, fused]), conv([fused, middle])],
+            up: conv([middle, full]),
+            output: conv([full, 3]),
+        }
+    }
+
+    /// Unit normals from the maximum of the features over the images.
+    ///
+    /// # Shapes
+    /// As of [`NormalNetwork::regress`](crate::NormalNetwork::regress).
+    pub fn forward(&self, fused: Tensor<4>) -> Tensor<4> {
+        let grown = convolve_doubled(&self.up, convolve_row(&self.fused, fused));
+        let raw = convolve(&self.output, grown);
+        // The small term keeps the gradient finite where the tower says nothing.
+        let length = (raw.clone().square().sum_dim(3) + 1e-8).sqrt();
+        raw / length
+    }
+}

@@ -1,0 +1,63 @@
+//! The seam between the training loop and what is trained.
+use crate::TrainError;
+use crate::named_tensors::NamedTensors;
+use crate::task::Validation;
+
+/// What the training loop drives. The loop brings batches, validations, checkpoints, curves and the
+/// run's folder; a learner brings its networks, optimisers and losses.
+pub(crate) trait Learner {
+    /// What it takes in at one step.
+    type Batch: Send + 'static;
+
+    /// Step `step`, from 0. Where loss or gradient is not finite, everything stays as it was.
+    ///
+    /// # Errors
+    /// Of the device.
+    fn learn(&mut self, batch: &Self::Batch, step: usize) -> Result<Learned, TrainError>;
+
+    /// Errors on unseen objects.
+    ///
+    /// # Errors
+    /// Of the pipeline.
+    fn validate(&self) -> Result<Validation, TrainError>;
+
+    /// Content of the result's file; nothing for a result that no file can hold.
+    ///
+    /// # Errors
+    /// Of the device.
+    fn result(&self) -> Result<Option<Vec<u8>>, TrainError>;
+
+    /// Everything that a continued run needs.
+    fn state(&self) -> NamedTensors;
+
+    /// Goes on from a state taken after `step` steps.
+    ///
+    /// # Errors
+    /// What is missing in the state or does not fit.
+    fn restore(&mut self, state: NamedTensors, step: usize) -> Result<(), String>;
+
+    /// Learning rate of a step, for the log.
+    fn rate(&self, step: usize) -> f32;
+
+    /// What brings the batch of a step back: the number of its first scene.
+    fn batch_seed(&self, step: usize) -> u64;
+}
+
+/// What a step gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Learned {
+    pub(crate) loss: f32,
+    /// Norm of the gradient over all weights, before clipping.
+    pub(crate) gradient_norm: f32,
+}
+
+impl Learned {
+    /// The first number that is not finite, and what it is.
+    pub(crate) fn failure(&self) -> Option<(&'static str, f32)> {
+        let numbers = [
+            ("loss", self.loss),
+            ("norm of the gradient", self.gradient_norm),
+        ];
+        numbers.into_iter().find(|(_, value)| !value.is_finite())
+    }
+}

@@ -1,0 +1,145 @@
+//! One of the two networks as a learner: its weights, Adam and their average.
+use crate::adam::{Adam, HostGradients, host};
+use crate::average::Average;
+use crate::batch::Batch;
+use crate::learner::{Learned, Learner};
+use crate::named_tensors::{NamedTensors, collect, fill, put, take};
+use crate::samples::first_scene;
+use crate::task::{Task, Validation};
+use crate::{TrainError, TrainRecipe};
+use burn::module::Module;
+use burn::tensor::Device;
+use normalight_model::Weights;
+use normalight_synth::Sample;
+
+/// Name of the file that holds the best weights.
+pub(crate) const RESULT: &str = "weights.safetensors";
+
+/// Names of the parts of a checkpoint.
+const WEIGHT: &str = "weight";
+const AVERAGE: &str = "average";
+
+/// A network in training.
+pub(crate) struct NetworkLearner<'a, T: Task> {
+    recipe: &'a TrainRecipe,
+    /// For validation.
+    device: &'a Device,
+    /// The same with gradients.
+    training: Device,
+    network: T::Network,
+    adam: Adam,
+    average: Option<Average>,
+    /// Unseen.
+    objects: Vec<Sample>,
+}
+
+impl<'a, T: Task> NetworkLearner<'a, T> {
+    /// A network with random weights of the recipe's seed. `device`: a plain one.
+    pub(crate) fn new(recipe: &'a TrainRecipe, device: &'a Device) -> Result<Self, TrainError> {
+        let training = device.clone().autodiff();
+        training.seed(recipe.seed);
+        let network = T::network(recipe, &training)?;
+        let average = Average::new(recipe.optimiser.average, collect(&network.valid()));
+        Ok(Self {
+            recipe,
+            device,
+            training,
+            network,
+            adam: Adam::default(),
+            average,
+            objects: Vec::new(),
+        })
+    }
+
+    /// Replaces the random weights.
+    pub(crate) fn start_from(&mut self, weights: &Weights) -> Result<(), TrainError> {
+        let network = self.network.clone();
+        self.network = T::start_from(self.recipe, network, weights, self.device)?;
+        let values = collect(&self.network.valid());
+        self.average = Average::new(self.recipe.optimiser.average, values);
+        Ok(())
+    }
+
+    /// What to validate on.
+    pub(crate) fn validate_on(&mut self, objects: Vec<Sample>) {
+        self.objects = objects;
+    }
+
+    /// The network as it is validated and kept: without gradients, with averaged weights.
+    fn judged(&self) -> T::Network {
+        let network = self.network.valid();
+        match &self.average {
+            None => network,
+            Some(average) => fill(network, &mut average.values.clone())
+                .expect("the average holds what the network holds"),
+        }
+    }
+}
+
+impl<T: Task> Learner for NetworkLearner<'_, T> {
+    type Batch = Batch;
+
+    fn learn(&mut self, batch: &Batch, step: usize) -> Result<Learned, TrainError> {
+        let loss = T::loss(self.recipe, &self.network, batch, &self.training);
+        let gradients = loss.backward();
+        let gradients = HostGradients::new(&self.network, &gradients);
+        let learned = Learned {
+            loss: host(loss).first().copied().unwrap_or(f32::NAN),
+            gradient_norm: gradients.norm,
+        };
+        if learned.failure().is_none() {
+            let optimiser = &self.recipe.optimiser;
+            let network = self.network.clone();
+            self.network = self
+                .adam
+                .step(network, gradients, self.rate(step), optimiser);
+            if let Some(average) = &mut self.average {
+                average.add(step + 1, &collect(&self.network.valid()));
+            }
+        }
+        Ok(learned)
+    }
+
+    fn validate(&self) -> Result<Validation, TrainError> {
+        T::validate(self.recipe, &self.judged(), &self.objects, self.device)
+    }
+
+    fn result(&self) -> Result<Option<Vec<u8>>, TrainError> {
+        let bytes = T::bytes(self.recipe, &self.judged())?;
+        // Weights that leave the range of half precision become infinite in the file.
+        Ok(Weights::from_bytes(RESULT, &bytes).is_ok().then_some(bytes))
+    }
+
+    fn state(&self) -> NamedTensors {
+        let mut state = NamedTensors::new();
+        put(&mut state, WEIGHT, collect(&self.network.valid()));
+        self.adam.save(&mut state);
+        if let Some(average) = &self.average {
+            put(&mut state, AVERAGE, average.values.clone());
+        }
+        state
+    }
+
+    fn restore(&mut self, mut state: NamedTensors, step: usize) -> Result<(), String> {
+        let mut weights = take(&mut state, WEIGHT);
+        self.network = fill(self.network.clone(), &mut weights)?;
+        if let Some(name) = weights.keys().next() {
+            return Err(format!("weight {name} is of another network"));
+        }
+        self.adam = Adam::load(&mut state, step)?;
+        if let Some(average) = &mut self.average {
+            average.values = take(&mut state, AVERAGE);
+            fill(self.network.valid(), &mut average.values.clone())
+                .map_err(|reason| format!("average: {reason}"))?;
+        }
+        Ok(())
+    }
+
+    fn rate(&self, step: usize) -> f32 {
+        self.recipe.rate(step)
+    }
+
+    fn batch_seed(&self, step: usize) -> u64 {
+        first_scene(self.recipe, T::FRAMING, step)
+    }
+}

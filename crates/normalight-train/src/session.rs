@@ -1,0 +1,172 @@
+//! What is the same for every kind of run: folder, continuing, notes, summary.
+use crate::checkpoint::{self, Standing};
+use crate::learner::Learner;
+use crate::loader::{BatchMaker, Batches};
+use crate::run_folder::{Found, RunFolder};
+use crate::training_loop::{Pace, StepReport, train_loop};
+use crate::{Network, RunState, Summary, TrainError};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// What happens during a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TrainEvent {
+    /// Something a person should know.
+    Note(String),
+    /// A step.
+    Step(StepReport),
+}
+
+/// A run as its folder knows it.
+#[derive(Debug)]
+pub(crate) struct Job {
+    /// Where.
+    pub(crate) folder: PathBuf,
+    /// Whether an earlier beginning is continued.
+    pub(crate) resume: bool,
+    /// The recipe as TOML.
+    pub(crate) recipe: String,
+    pub(crate) network: Network,
+    /// Number of trainable weights that are kept.
+    pub(crate) parameters: usize,
+    pub(crate) seed: u64,
+    pub(crate) pace: Pace,
+    /// Name of the file that holds the best result.
+    pub(crate) result: &'static str,
+}
+
+/// Runs a job in its folder: `train` prepares a learner and lets it go, `card` writes about the result.
+/// A job that is finished already is not begun.
+///
+/// # Errors
+/// Those of the folder, and of `train`; the summary tells them unless nothing has begun.
+pub(crate) fn run_job<O>(
+    job: &Job,
+    observe: &mut O,
+    train: impl FnOnce(&mut Session<O>) -> Result<ControlFlow<()>, TrainError>,
+    card: impl FnOnce(&Summary) -> String,
+) -> Result<Summary, TrainError>
+where
+    O: FnMut(TrainEvent) -> ControlFlow<()>,
+{
+    let folder = RunFolder::open(job)?;
+    let notes = match folder.find(job)? {
+        Found::Begun(note) => note.into_iter().collect(),
+        Found::Finished(summary) => {
+            let note = "finished already, nothing is left to do".to_owned();
+            let _ = observe(TrainEvent::Note(note));
+            return Ok(summary);
+        }
+    };
+    let mut session = Session {
+        job,
+        folder,
+        standing: Standing::start(),
+        notes,
+        observe,
+    };
+    let result = train(&mut session);
+    session.end(result, card)
+}
+
+/// A job under way.
+pub(crate) struct Session<'a, O> {
+    job: &'a Job,
+    folder: RunFolder,
+    standing: Standing,
+    notes: Vec<String>,
+    observe: &'a mut O,
+}
+
+impl<O: FnMut(TrainEvent) -> ControlFlow<()>> Session<'_, O> {
+    /// Brings a learner to where the run stands: from the checkpoint, or by `start`, which tells what it
+    /// did. Then the run has begun.
+    pub(crate) fn begin<L: Learner>(
+        &mut self,
+        learner: &mut L,
+        start: impl FnOnce(&mut L) -> Result<String, TrainError>,
+    ) -> Result<(), TrainError> {
+        let path = self.folder.path();
+        if self.job.resume && checkpoint::exists(path) {
+            let loaded = checkpoint::load(path)?;
+            let step = loaded.standing.step;
+            learner
+                .restore(loaded.tensors, step)
+                .map_err(|reason| TrainError::Checkpoint {
+                    path: loaded.path,
+                    reason,
+                })?;
+            self.standing = loaded.standing;
+            self.notes.extend(loaded.note);
+            let steps = self.job.pace.steps;
+            self.notes
+                .push(format!("continued after step {step} of {steps}"));
+        } else {
+            self.notes.push(start(learner)?);
+        }
+        self.folder.clean();
+        self.folder.write_recipe(&self.job.recipe)?;
+        for note in std::mem::take(&mut self.notes) {
+            self.folder.log(&note);
+            let _ = (self.observe)(TrainEvent::Note(note));
+        }
+        self.folder.write_summary(&self.summary(RunState::Running))
+    }
+
+    /// Trains to the end, or until the observer stops it.
+    pub(crate) fn go<L, M>(
+        &mut self,
+        learner: &mut L,
+        maker: &M,
+        threads: usize,
+    ) -> Result<ControlFlow<()>, TrainError>
+    where
+        L: Learner,
+        M: BatchMaker<Batch = L::Batch>,
+    {
+        let pace = self.job.pace;
+        let mut batches = Batches::start(maker, threads, self.standing.step, pace.steps);
+        let observe = &mut *self.observe;
+        let observe = |report| observe(TrainEvent::Step(report));
+        let (folder, standing) = (&self.folder, &mut self.standing);
+        train_loop(learner, &mut batches, folder, pace, standing, observe)
+    }
+
+    fn summary(&self, state: RunState) -> Summary {
+        let result = self.folder.result();
+        Summary::new(self.job, &self.standing, state, result.as_deref())
+    }
+
+    fn end(
+        self,
+        result: Result<ControlFlow<()>, TrainError>,
+        card: impl FnOnce(&Summary) -> String,
+    ) -> Result<Summary, TrainError> {
+        let folder = &self.folder;
+        let summary = match result {
+            Ok(ControlFlow::Continue(())) => {
+                let summary = self.summary(RunState::Finished);
+                folder.write("model-card.md", card(&summary).as_bytes())?;
+                folder.log("finished");
+                summary
+            }
+            Ok(ControlFlow::Break(())) => {
+                folder.log("interrupted");
+                self.summary(RunState::Interrupted)
+            }
+            Err(error) => {
+                if folder.has_run() {
+                    folder.log(&format!("error: {error}"));
+                    let summary = self.summary(RunState::Failed).failed(&error);
+                    // The error itself matters more than one in telling about it, on a full disk say.
+                    let _ = folder.write_summary(&summary);
+                } else {
+                    self.folder.abandon();
+                }
+                return Err(error);
+            }
+        };
+        folder.write_summary(&summary)?;
+        Ok(summary)
+    }
+}

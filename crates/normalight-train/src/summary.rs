@@ -1,0 +1,126 @@
+//! `summary.json`: how a run stands, for job schedulers and workflow engines.
+use crate::checkpoint::{Standing, hash_of};
+use crate::session::Job;
+use crate::{Network, TrainError};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How a run stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunState {
+    /// It trains; or it was killed, when no process does.
+    Running,
+    /// All steps are taken.
+    Finished,
+    /// It was asked to stop, and can be continued.
+    Interrupted,
+    /// An error ended it.
+    Failed,
+}
+
+/// The best validation of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Best {
+    /// Step after which it was.
+    pub step: usize,
+    /// Mean error on unseen objects in degrees.
+    pub degrees: f32,
+    /// More about it: shares of pixels under 11.25, 22.5 and 30 degrees for the normal network
+    /// (`under_11_25` and so on), `intensity_error` for the light network.
+    pub figures: BTreeMap<String, f32>,
+}
+
+/// Everything that a script wants to know of a run; the content of `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// How it stands.
+    pub state: RunState,
+    /// What went wrong.
+    pub reason: Option<String>,
+    /// The exit code of the command: 0 finished, 1 error, 3 diverged, 130 interrupted; nothing while
+    /// it runs.
+    pub exit_code: Option<u8>,
+    /// Which network.
+    pub network: Network,
+    /// Its number of weights.
+    pub parameters: usize,
+    /// Seed of weights and samples.
+    pub seed: u64,
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps to take.
+    pub steps_planned: usize,
+    /// The best validation.
+    pub best: Option<Best>,
+    /// Loss of the last step.
+    pub loss: Option<f32>,
+    /// Hours of training.
+    pub hours: f64,
+    /// How many of them were spent waiting for samples.
+    pub hours_waited: f64,
+    /// SHA-256 of `weights.safetensors`.
+    pub weights_sha256: Option<String>,
+    /// SHA-256 of `recipe.toml`.
+    pub recipe_sha256: String,
+    /// Version of Normalight.
+    pub version: String,
+}
+
+impl Summary {
+    /// `weights`: content of the weights file, where there is one.
+    pub(crate) fn new(
+        job: &Job,
+        standing: &Standing,
+        state: RunState,
+        weights: Option<&[u8]>,
+    ) -> Self {
+        let exit_code = match state {
+            RunState::Running => None,
+            RunState::Finished => Some(0),
+            RunState::Interrupted => Some(130),
+            RunState::Failed => Some(1),
+        };
+        Self {
+            state,
+            reason: None,
+            exit_code,
+            network: job.network,
+            parameters: job.parameters,
+            seed: job.seed,
+            steps: standing.step,
+            steps_planned: job.pace.steps,
+            best: standing.best.clone(),
+            loss: standing.loss,
+            hours: hours(standing.seconds),
+            hours_waited: hours(standing.waited),
+            weights_sha256: weights.map(hash_of),
+            recipe_sha256: hash_of(job.recipe.as_bytes()),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+
+    /// The same run ended by an error.
+    pub(crate) fn failed(mut self, error: &TrainError) -> Self {
+        self.state = RunState::Failed;
+        self.reason = Some(error.to_string());
+        self.exit_code = Some(error.exit_code());
+        self
+    }
+
+    /// Whether nothing is left to do of so many steps.
+    pub(crate) fn is_end_of(&self, steps: usize) -> bool {
+        self.state == RunState::Finished && self.steps >= steps
+    }
+
+    pub(crate) fn to_json(&self) -> String {
+        let json = serde_json::to_string_pretty(self);
+        // Numbers and text always become JSON.
+        json.unwrap_or_default() + "\n"
+    }
+}
+
+/// Seconds as hours; more digits than these would only be noise.
+fn hours(seconds: f64) -> f64 {
+    (seconds / 3600.0 * 1e6).round() / 1e6
+}

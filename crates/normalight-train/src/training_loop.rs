@@ -1,0 +1,219 @@
+//! The loop that every kind of training shares.
+use crate::checkpoint::{self, Standing};
+use crate::curves::{self, Point};
+use crate::learner::{Learned, Learner};
+use crate::loader::Batches;
+use crate::run_folder::RunFolder;
+use crate::task::Validation;
+use crate::{Best, TrainError};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// How long a run is, and how often it does what.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pace {
+    /// Steps in all.
+    pub(crate) steps: usize,
+    /// Steps between validations.
+    pub(crate) validate_every: usize,
+    /// Steps between checkpoints.
+    pub(crate) checkpoint_every: usize,
+    /// Samples of a step.
+    pub(crate) batch: usize,
+}
+
+/// What a step gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport {
+    /// Steps taken so far.
+    pub step: usize,
+    /// Loss of this step.
+    pub loss: f32,
+    /// Norm of the gradient before clipping.
+    pub gradient_norm: f32,
+    /// Validation error in degrees, after a validation.
+    pub validation: Option<f32>,
+    /// Best validation error so far, in degrees.
+    pub best: Option<f32>,
+    /// Seconds of computing, waiting for samples left out.
+    pub seconds: f64,
+    /// Seconds of waiting for samples.
+    pub waited: f64,
+}
+
+/// Trains up to the last step, or until `observe` stops it, which is what the answer tells. A
+/// checkpoint is written either way.
+pub(crate) fn train_loop<L: Learner>(
+    learner: &mut L,
+    batches: &mut Batches<L::Batch>,
+    folder: &RunFolder,
+    pace: Pace,
+    standing: &mut Standing,
+    mut observe: impl FnMut(StepReport) -> ControlFlow<()>,
+) -> Result<ControlFlow<()>, TrainError> {
+    let mut points = curves::read(folder.path());
+    points.retain(|point| point.step <= standing.step);
+    let mut speed = Speed::default();
+    while standing.step < pace.steps {
+        let start = Instant::now();
+        let batch = batches.next()?;
+        let waited = start.elapsed().as_secs_f64();
+        let learned = learn(learner, &batch, standing.step)?;
+        let rate = learner.rate(standing.step);
+        standing.step += 1;
+        standing.loss = Some(learned.loss);
+        standing.recent.0 += learned.loss;
+        standing.recent.1 += 1;
+        let computed = start.elapsed().as_secs_f64() - waited;
+        speed.add(waited, computed);
+        let last = standing.step == pace.steps;
+        let validation = if last || standing.step.is_multiple_of(pace.validate_every) {
+            let seconds = standing.seconds + start.elapsed().as_secs_f64();
+            Some(validate(
+                learner,
+                folder,
+                standing,
+                &mut points,
+                rate,
+                seconds,
+            )?)
+        } else {
+            None
+        };
+        standing.seconds += start.elapsed().as_secs_f64();
+        standing.waited += waited;
+        let answer = observe(StepReport {
+            step: standing.step,
+            loss: learned.loss,
+            gradient_norm: learned.gradient_norm,
+            validation: validation.as_ref().map(|validation| validation.degrees),
+            best: standing.best.as_ref().map(|best| best.degrees),
+            seconds: computed,
+            waited,
+        });
+        let due = standing.step.is_multiple_of(pace.checkpoint_every);
+        if last || answer.is_break() || due {
+            checkpoint::save(folder.path(), &learner.state(), standing)?;
+        }
+        if last || due || validation.is_some() {
+            let line = log_line(standing, pace, learned, rate, validation.as_ref());
+            folder.log(&format!("{line}, {}", speed.take(pace.batch)));
+        }
+        if answer.is_break() && !last {
+            return Ok(answer);
+        }
+    }
+    Ok(ControlFlow::Continue(()))
+}
+
+fn learn<L: Learner>(
+    learner: &mut L,
+    batch: &L::Batch,
+    step: usize,
+) -> Result<Learned, TrainError> {
+    let learned = learner.learn(batch, step)?;
+    match learned.failure() {
+        None => Ok(learned),
+        Some((quantity, value)) => Err(TrainError::Diverged {
+            quantity,
+            value,
+            step: step + 1,
+            batch_seed: learner.batch_seed(step),
+        }),
+    }
+}
+
+/// Validates, draws the curves, and keeps the result when it is the best.
+fn validate<L: Learner>(
+    learner: &L,
+    folder: &RunFolder,
+    standing: &mut Standing,
+    points: &mut Vec<Point>,
+    rate: f32,
+    seconds: f64,
+) -> Result<Validation, TrainError> {
+    let validation = learner.validate()?;
+    let (sum, count) = std::mem::take(&mut standing.recent);
+    points.push(Point {
+        step: standing.step,
+        loss: sum / count.max(1) as f32,
+        error: validation.degrees,
+        rate,
+        seconds,
+        figures: validation.figures.clone(),
+    });
+    curves::write(folder.path(), points)?;
+    let better = |best: &Best| validation.degrees < best.degrees;
+    if validation.degrees.is_finite()
+        && standing.best.as_ref().is_none_or(better)
+        && let Some(result) = learner.result()?
+    {
+        folder.write_result(&result)?;
+        standing.best = Some(Best {
+            step: standing.step,
+            degrees: validation.degrees,
+            // JSON has no word for other numbers.
+            figures: validation
+                .figures
+                .iter()
+                .filter(|(_, value)| value.is_finite())
+                .map(|(name, value)| (name.clone(), *value))
+                .collect(),
+        });
+    }
+    Ok(validation)
+}
+
+fn log_line(
+    standing: &Standing,
+    pace: Pace,
+    learned: Learned,
+    rate: f32,
+    validation: Option<&Validation>,
+) -> String {
+    let mut line = format!(
+        "step {} of {}: loss {:.5}, gradient {:.4}, learning rate {rate:.3e}",
+        standing.step, pace.steps, learned.loss, learned.gradient_norm
+    );
+    if let Some(validation) = validation {
+        line += &format!(", validation {:.3} degrees", validation.degrees);
+        for (name, value) in &validation.figures {
+            line += &format!(", {name} {value:.4}");
+        }
+        if let Some(best) = &standing.best {
+            line += &format!(", best {:.3} degrees at step {}", best.degrees, best.step);
+        }
+    }
+    line
+}
+
+/// How fast the steps since the last line of the log were.
+#[derive(Default)]
+struct Speed {
+    steps: usize,
+    waited: f64,
+    computed: f64,
+}
+
+impl Speed {
+    fn add(&mut self, waited: f64, computed: f64) {
+        self.steps += 1;
+        self.waited += waited;
+        self.computed += computed;
+    }
+
+    /// In words, and starts anew.
+    fn take(&mut self, batch: usize) -> String {
+        let Self {
+            steps,
+            waited,
+            computed,
+        } = std::mem::take(self);
+        let seconds = (waited + computed).max(1e-9);
+        format!(
+            "{:.1} samples/s, {:.0} % of the time waiting for samples",
+            (steps * batch) as f64 / seconds,
+            100.0 * waited / seconds
+        )
+    }
+}

@@ -1,0 +1,85 @@
+//! Tiny runs.
+#![allow(dead_code)]
+use burn::tensor::Device;
+use normalight_train::{Summary, TrainError, TrainEvent, TrainRecipe, TrainRun, train};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// The normal network on little crops, and the light network on its smallest views.
+pub const NORMAL: &str = "network = \"normal\"\nsize = 16\nbatch = 2\nimages = [3, 4]\n\
+                          validation_objects = 1\ncheckpoint_every = 2\n";
+pub const LIGHT: &str = "network = \"light\"\nsize = 64\nbatch = 2\nimages = [3, 4]\n\
+                         validation_objects = 1\ncheckpoint_every = 2\n";
+
+/// Random weights come from a generator that all tests of a process share.
+static GENERATOR: Mutex<()> = Mutex::new(());
+
+/// What a run did.
+#[derive(Debug)]
+pub struct Ran {
+    pub summary: Summary,
+    pub losses: Vec<f32>,
+    pub notes: Vec<String>,
+}
+
+pub fn recipe(text: &str) -> TrainRecipe {
+    TrainRecipe::parse("recipe.toml", text).unwrap()
+}
+
+/// Trains until the end, or until `stop_at` steps are taken.
+pub fn run(
+    folder: &Path,
+    recipe: &TrainRecipe,
+    resume: bool,
+    stop_at: Option<usize>,
+) -> Result<Ran, TrainError> {
+    let _alone = GENERATOR.lock().unwrap_or_else(PoisonError::into_inner);
+    let run = TrainRun {
+        recipe: recipe.clone(),
+        folder: folder.to_owned(),
+        resume,
+        command: "normalight train | tee log".to_owned(),
+    };
+    let (mut losses, mut notes) = (Vec::new(), Vec::new());
+    let summary = train(&run, &Device::flex(), |event| {
+        match event {
+            TrainEvent::Note(note) => notes.push(note),
+            TrainEvent::Step(report) => {
+                losses.push(report.loss);
+                if stop_at == Some(report.step) {
+                    return ControlFlow::Break(());
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    })?;
+    Ok(Ran {
+        summary,
+        losses,
+        notes,
+    })
+}
+
+/// A run from start to end.
+pub fn whole(folder: &Path, recipe: &TrainRecipe) -> Ran {
+    run(folder, recipe, false, None).unwrap()
+}
+
+/// Everything in a folder.
+pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap());
+    entries
+        .map(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            (name, std::fs::read(entry.path()).unwrap())
+        })
+        .collect()
+}
+
+pub fn text(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
