@@ -5,6 +5,11 @@ mod adam;
 mod batch;
 mod checkpoint;
 mod curves;
+#[cfg_attr(
+    not(test),
+    expect(dead_code, reason = "the training loop is going to call it")
+)]
+mod data_parallel;
 mod error;
 mod evaluate;
 mod light_task;
