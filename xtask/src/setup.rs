@@ -19,6 +19,7 @@ pub struct Tools<'a> {
     toolchain: OnceCell<Toolchain>,
     node: OnceCell<Node>,
     chromium: OnceCell<PathBuf>,
+    software_gpu: OnceCell<bool>,
 }
 
 impl<'a> Tools<'a> {
@@ -34,6 +35,7 @@ impl<'a> Tools<'a> {
             toolchain: OnceCell::new(),
             node: OnceCell::new(),
             chromium: OnceCell::new(),
+            software_gpu: OnceCell::new(),
         }
     }
 
@@ -57,6 +59,13 @@ impl<'a> Tools<'a> {
     /// The browser the page is tested in.
     pub fn chromium(&self) -> Result<&PathBuf> {
         once(&self.chromium, || chromium(self.workspace, &self.packages))
+    }
+
+    /// Whether there is a GPU imitated by the processor, for the tests of the GPU's code.
+    pub fn software_gpu(&self) -> Result<&bool> {
+        once(&self.software_gpu, || {
+            software_gpu(self.workspace, &self.packages)
+        })
     }
 }
 
@@ -113,6 +122,21 @@ fn chromium(workspace: &Workspace, packages: &Packages) -> Result<PathBuf> {
         format!("the page's tests need Chromium or Chrome (or its path in {VARIABLE})")
     })?;
     find().context("chromium was installed, but is not on the path")
+}
+
+/// Only Debian's package is known to be one; elsewhere the tests look for themselves.
+fn software_gpu(workspace: &Workspace, packages: &Packages) -> Result<bool> {
+    const PACKAGE: &str = "mesa-vulkan-drivers";
+    if which::which("apt-get").is_err() {
+        workspace.say("setup: no apt-get here to install a software GPU; tests may leave it out");
+        return Ok(false);
+    }
+    if !packages.installed(&[PACKAGE]) {
+        packages
+            .install(&[PACKAGE])
+            .context("training is tested on a software GPU")?;
+    }
+    Ok(true)
 }
 
 /// Debian's packages.

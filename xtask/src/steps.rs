@@ -19,6 +19,8 @@ pub enum Step {
     Xtask,
     /// Lints of the native crates.
     Clippy,
+    /// Lints of the command with CUDA.
+    Cuda,
     /// The documentation builds without warnings.
     Docs,
     /// The command and the native tests, compiled.
@@ -105,14 +107,15 @@ fn sum_up(workspace: &Workspace, times: &[(String, Duration)]) {
 fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
     for step in steps {
         match step {
-            Step::Fmt | Step::Clippy | Step::Xtask => tools.components()?,
+            Step::Fmt | Step::Clippy | Step::Cuda | Step::Xtask => tools.components()?,
             Step::WasmClippy | Step::Wasm => drop(tools.toolchain()?),
             Step::NpmCi | Step::Check | Step::Page => drop(tools.node()?),
             Step::PageTests => {
                 tools.node()?;
                 tools.chromium()?;
             }
-            Step::Docs | Step::Build | Step::Rust | Step::Bindgen => {}
+            Step::Rust => drop(tools.software_gpu()?),
+            Step::Docs | Step::Build | Step::Bindgen => {}
         }
     }
     Ok(())
@@ -151,13 +154,28 @@ impl Step {
                 &["clippy"],
                 &["--all-targets", "--", "-D", "warnings"],
             )),
+            Self::Cuda => {
+                let lint = ["clippy", "--release", "--package", "normalight-cli"];
+                let mut command = workspace.cargo(&lint);
+                command.args(["--features", "cuda", "--", "-D", "warnings"]);
+                // Burn's CUDA compiler links LLVM, which its build script would download. Under this
+                // variable it leaves LLVM and its C++ alone: enough to check all Rust, not to link.
+                run::run(command.env("DOCS_RS", "1"))
+            }
             Self::Docs => {
                 run::run(native(&["doc", "--no-deps"], &[]).env("RUSTDOCFLAGS", "-D warnings"))
             }
             // With the tests, although only the command is wanted: the features of development
             // dependencies count then too, as they do in the next step.
             Self::Build => run::run(&mut native(&["build"], &["--bins", "--tests"])),
-            Self::Rust => run::run(&mut native(&["test"], &[])),
+            Self::Rust => {
+                let mut command = native(&["test"], &[]);
+                if *tools.software_gpu()? {
+                    // Its tests may not be left out.
+                    command.env("NORMALIGHT_SOFTWARE_GPU", "1");
+                }
+                run::run(&mut command)
+            }
             Self::WasmClippy => tools.toolchain()?.clippy(workspace),
             Self::Wasm => tools.toolchain()?.build(workspace),
             Self::Bindgen => wasm::bindgen(workspace),

@@ -142,6 +142,9 @@ pub(crate) struct TrainArgs {
     /// Where to compute.
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) device: DeviceChoice,
+    /// Number of devices that share every batch.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) devices: u32,
     /// Show no progress and no summary.
     #[arg(long)]
     pub(crate) quiet: bool,

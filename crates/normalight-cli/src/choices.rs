@@ -12,8 +12,11 @@ pub(crate) enum DeviceChoice {
     Auto,
     /// The processor.
     Cpu,
-    /// A real GPU, or an error.
-    Gpu,
+    /// A real GPU of any maker (Vulkan, Metal or DirectX 12), or an error.
+    #[value(alias = "gpu")]
+    Wgpu,
+    /// An NVIDIA GPU by CUDA, in programs built with `--features cuda`.
+    Cuda,
     /// A GPU that the processor imitates: slow, for tests of the GPU's code.
     #[value(hide = true)]
     SoftwareGpu,

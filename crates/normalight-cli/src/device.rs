@@ -15,9 +15,34 @@ pub(crate) fn open(choice: DeviceChoice) -> Result<OpenDevice> {
     match choice {
         DeviceChoice::Auto => Ok(open_gpu().unwrap_or_else(|_| cpu())),
         DeviceChoice::Cpu => Ok(cpu()),
-        DeviceChoice::Gpu => open_gpu(),
+        DeviceChoice::Wgpu => open_gpu(),
+        DeviceChoice::Cuda => open_cuda(),
         DeviceChoice::SoftwareGpu => open_software_gpu(),
         DeviceChoice::Reference => Ok(reference()),
+    }
+}
+
+/// Opens several devices of one kind for training; the first is the main one.
+pub(crate) fn open_several(choice: DeviceChoice, count: usize) -> Result<Vec<Device>> {
+    if count <= 1 {
+        return Ok(vec![open(choice)?.device]);
+    }
+    match choice {
+        DeviceChoice::Wgpu => (0..count)
+            .map(|index| Ok(open_adapter(DeviceKind::DiscreteGpu(index))?.0))
+            .collect(),
+        DeviceChoice::Cuda => {
+            let devices = cuda_devices()?;
+            if devices.len() < count {
+                bail!("{count} NVIDIA GPUs wanted, {} found", devices.len());
+            }
+            Ok(devices.into_iter().take(count).collect())
+        }
+        // One processor many times is of no use, but shows on any machine how it goes.
+        DeviceChoice::Cpu => Ok(vec![cpu().device; count]),
+        DeviceChoice::Auto | DeviceChoice::SoftwareGpu | DeviceChoice::Reference => {
+            bail!("several devices need --device cuda or wgpu")
+        }
     }
 }
 
@@ -49,6 +74,31 @@ fn open_gpu() -> Result<OpenDevice> {
         "no GPU found, only {} ({:?}); use --device cpu",
         adapter.name,
         adapter.device_type
+    )
+}
+
+fn open_cuda() -> Result<OpenDevice> {
+    let Some(device) = cuda_devices()?.into_iter().next() else {
+        bail!("no NVIDIA GPU found, or not its driver; use --device wgpu or cpu");
+    };
+    let identity = device.identity().map(|identity| identity.name);
+    Ok(OpenDevice {
+        device,
+        name: format!("GPU ({}, CUDA)", identity.as_deref().unwrap_or("NVIDIA")),
+    })
+}
+
+/// What the driver lists; a device that is not listed would panic when used.
+#[cfg(feature = "cuda")]
+fn cuda_devices() -> Result<Vec<Device>> {
+    Ok(Device::enumerate(burn::tensor::DeviceType::Cuda).into_vec())
+}
+
+#[cfg(not(feature = "cuda"))]
+fn cuda_devices() -> Result<Vec<Device>> {
+    bail!(
+        "this program was built without CUDA; build it with \
+         `cargo build --release -p normalight-cli --features cuda`, or use --device wgpu or cpu"
     )
 }
 
@@ -92,5 +142,13 @@ mod tests {
     fn software_is_no_gpu() {
         assert!(is_real(DeviceType::DiscreteGpu) && is_real(DeviceType::IntegratedGpu));
         assert!(!is_real(DeviceType::Cpu) && !is_real(DeviceType::Other));
+    }
+
+    #[test]
+    fn several_devices_are_as_many_as_asked_for_or_an_error() {
+        assert_eq!(open_several(DeviceChoice::Cpu, 3).unwrap().len(), 3);
+        // More than any machine has, or a program without CUDA.
+        assert!(open_several(DeviceChoice::Cuda, 1000).is_err());
+        assert!(open_several(DeviceChoice::Auto, 2).is_err());
     }
 }

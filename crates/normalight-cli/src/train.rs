@@ -7,14 +7,15 @@ use crate::{device, interrupt, progress};
 use anyhow::{Context, Result, bail};
 use indicatif::ProgressBar;
 use normalight_train::{
-    RunState, StepReport, Summary, TrainError, TrainEvent, TrainRecipe, TrainRun, train,
+    Devices, RunState, StepReport, Summary, TrainError, TrainEvent, TrainRecipe, TrainRun, train,
 };
 use std::path::{Path, PathBuf};
 
 /// Trains until the recipe's last step or Ctrl-C.
 pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
     let recipe = recipe(args)?;
-    let device = device::open(args.device)?.device;
+    let devices = device::open_several(args.device, args.devices as usize)?;
+    let (main, others) = devices.split_first().context("no device")?;
     if !args.quiet {
         let parameters = recipe.parameters();
         note(&format!(
@@ -29,7 +30,7 @@ pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
         resume: args.resume,
         command: std::env::args().collect::<Vec<_>>().join(" "),
     };
-    let summary = train(&run, &device, |event| {
+    let summary = train(&run, Devices { main, others }, |event| {
         monitor.show(event);
         interrupt::answer()
     })?;

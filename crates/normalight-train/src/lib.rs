@@ -12,6 +12,7 @@ mod batch;
 mod cache;
 mod checkpoint;
 mod curves;
+mod data_parallel;
 mod error;
 mod evaluate;
 mod init;
@@ -40,7 +41,7 @@ pub use recipe::{
     CacheRecipe, Decay, LightMix, LightSettings, Network, NormalSettings, OptimiserRecipe,
     PublishedChoice, PublishedRecipe, Schedule, TrainRecipe,
 };
-pub use run::{TrainRun, train};
+pub use run::{Devices, TrainRun, train};
 pub use session::TrainEvent;
 pub use summary::{Best, RunState, Summary};
 pub use training_loop::StepReport;

@@ -134,6 +134,11 @@ impl Task for LightTask {
         loss + error * settings.intensity_weight
     }
 
+    /// Samples; all have the same number of images.
+    fn weight(part: &Batch) -> f32 {
+        part.samples as f32
+    }
+
     fn validate(
         recipe: &TrainRecipe,
         network: &LightNetwork,

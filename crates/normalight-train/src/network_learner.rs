@@ -1,7 +1,8 @@
 //! One of the two networks as a learner: its weights, Adam and their average.
-use crate::adam::{Adam, HostGradients, host};
+use crate::adam::{Adam, HostGradients};
 use crate::average::Average;
 use crate::batch::Batch;
+use crate::data_parallel::{Replicas, scalar};
 use crate::learner::{Learned, Learner};
 use crate::named_tensors::{NamedTensors, collect, fill, put, take};
 use crate::samples::first_scene;
@@ -27,6 +28,8 @@ pub(crate) struct NetworkLearner<'a, T: Task> {
     /// The same with gradients.
     training: Device,
     network: T::Network,
+    /// Other devices that compute a part of the gradients.
+    replicas: Option<Replicas<T>>,
     adam: Adam,
     average: Option<Average>,
     /// Unseen.
@@ -34,17 +37,27 @@ pub(crate) struct NetworkLearner<'a, T: Task> {
 }
 
 impl<'a, T: Task> NetworkLearner<'a, T> {
-    /// A network with random weights of the recipe's seed. `device`: a plain one.
-    pub(crate) fn new(recipe: &'a TrainRecipe, device: &'a Device) -> Result<Self, TrainError> {
+    /// A network with random weights of the recipe's seed. `device` and `others`: plain ones.
+    pub(crate) fn new(
+        recipe: &'a TrainRecipe,
+        device: &'a Device,
+        others: &[Device],
+    ) -> Result<Self, TrainError> {
         let training = device.clone().autodiff();
         training.seed(recipe.seed);
         let network = T::network(recipe, &training)?;
         let average = Average::new(recipe.optimiser.average, collect(&network.valid()));
+        let others: Vec<Device> = others
+            .iter()
+            .map(|device| device.clone().autodiff())
+            .collect();
+        let replicas = (!others.is_empty()).then(|| Replicas::new(recipe, &training, &others));
         Ok(Self {
             recipe,
             device,
             training,
             network,
+            replicas,
             adam: Adam::default(),
             average,
             objects: Vec::new(),
@@ -80,11 +93,17 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
     type Batch = Batch;
 
     fn learn(&mut self, batch: &Batch, step: usize) -> Result<Learned, TrainError> {
-        let loss = T::loss(self.recipe, &self.network, batch, &self.training);
-        let gradients = loss.backward();
+        let (loss, gradients) = match &mut self.replicas {
+            Some(replicas) => replicas.gradients(&self.network, batch),
+            None => {
+                let loss = T::loss(self.recipe, &self.network, batch, &self.training);
+                let gradients = loss.backward();
+                (scalar(loss), gradients)
+            }
+        };
         let gradients = HostGradients::new(&self.network, &gradients);
         let learned = Learned {
-            loss: host(loss).first().copied().unwrap_or(f32::NAN),
+            loss,
             gradient_norm: gradients.norm,
         };
         if learned.failure().is_none() {

@@ -127,6 +127,13 @@ impl Task for NormalTask {
         }
     }
 
+    /// Pixels inside the masks.
+    fn weight(part: &Batch) -> f32 {
+        let area = part.size * part.size;
+        let samples = part.target.chunks_exact(4 * area);
+        samples.flat_map(|planes| &planes[3 * area..]).sum()
+    }
+
     fn validate(
         recipe: &TrainRecipe,
         training: &NormalTraining,

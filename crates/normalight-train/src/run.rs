@@ -33,6 +33,21 @@ pub struct TrainRun {
     pub command: String,
 }
 
+/// Where a run computes.
+#[derive(Debug, Clone, Copy)]
+pub struct Devices<'a> {
+    /// Holds the network and takes the steps.
+    pub main: &'a Device,
+    /// Compute the gradients of a part of every batch.
+    pub others: &'a [Device],
+}
+
+impl<'a> From<&'a Device> for Devices<'a> {
+    fn from(main: &'a Device) -> Self {
+        Self { main, others: &[] }
+    }
+}
+
 /// Trains as the recipe says; `observe` is called after every step and may then stop the run, which
 /// writes a checkpoint and can be continued. Its answers to notes are ignored.
 ///
@@ -40,16 +55,17 @@ pub struct TrainRun {
 /// `checkpoint.safetensors` and the one before it, `weights.safetensors` (best on validation),
 /// `summary.json` and, at the end, `model-card.md`. Asked for a run that is finished, it does nothing.
 ///
-/// `device` must be a plain device; gradients are switched on inside.
+/// `devices` must be plain ones; gradients are switched on inside. The first is the main one; others compute a part of
+/// every batch.
 ///
 /// # Errors
 /// [`TrainError`], which the summary then tells, too, unless nothing has begun.
-pub fn train(
+pub fn train<'a>(
     run: &TrainRun,
-    device: &Device,
+    devices: impl Into<Devices<'a>>,
     mut observe: impl FnMut(TrainEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
-    let recipe = &run.recipe;
+    let (recipe, devices) = (&run.recipe, &devices.into());
     recipe.validate()?;
     let job = Job {
         folder: run.folder.clone(),
@@ -71,13 +87,13 @@ pub fn train(
         Network::Light => run_job(
             &job,
             &mut observe,
-            |session| train_network::<LightTask, _>(recipe, device, session),
+            |session| train_network::<LightTask, _>(recipe, devices, session),
             card,
         ),
         Network::Normal => run_job(
             &job,
             &mut observe,
-            |session| train_network::<NormalTask, _>(recipe, device, session),
+            |session| train_network::<NormalTask, _>(recipe, devices, session),
             card,
         ),
     }
@@ -85,7 +101,7 @@ pub fn train(
 
 fn train_network<T, O>(
     recipe: &TrainRecipe,
-    device: &Device,
+    devices: &Devices<'_>,
     session: &mut Session<O>,
 ) -> Result<ControlFlow<()>, TrainError>
 where
@@ -96,9 +112,9 @@ where
     let source = Arc::new(Source::open(recipe, T::FRAMING)?);
     let mix = &recipe.normal.lights;
     let predictor = (recipe.network == Network::Normal && mix.predicted > 0.0)
-        .then(|| Predictor::new(mix.light_weights.as_deref(), device))
+        .then(|| Predictor::new(mix.light_weights.as_deref(), devices.main))
         .transpose()?;
-    let mut learner = NetworkLearner::<T>::new(recipe, device)?;
+    let mut learner = NetworkLearner::<T>::new(recipe, devices.main, devices.others)?;
     session.begin(&mut learner, |learner| {
         let Some(init) = &recipe.init else {
             return Ok(format!(

@@ -19,7 +19,7 @@ pub(crate) struct Validation {
 /// What is particular to the training of one of the networks.
 pub(crate) trait Task: Sized + 'static {
     /// The network being trained, with whatever helps it while it is.
-    type Network: Module + std::fmt::Debug;
+    type Network: Module + std::fmt::Debug + 'static;
 
     /// A network with random weights.
     fn network(recipe: &TrainRecipe, device: &Device) -> Result<Self::Network, TrainError>;
@@ -54,6 +54,9 @@ pub(crate) trait Task: Sized + 'static {
         batch: &Batch,
         device: &Device,
     ) -> Tensor<1>;
+
+    /// Weight of a part of a batch in the loss of the whole: the number of things its loss is a mean over.
+    fn weight(part: &Batch) -> f32;
 
     /// Errors on whole unseen objects, through the pipeline that users run.
     fn validate(

@@ -1,0 +1,362 @@
+//! One network on several devices: each computes the gradients of a part of the batch.
+//!
+//! This is Burn's data-parallel strategy with a main device (`MultiDevice` of its own training
+//! loop), made of the same pieces: the network is forked to every device, and the gradients of the
+//! replicas move to the main device and are added up. In Burn's other strategy the devices reduce
+//! the gradients among themselves; it knows CUDA only, so no test of ours could run it, and our
+//! networks are small enough to travel at every step.
+
+use crate::TrainRecipe;
+use crate::adam::host;
+use crate::batch::Batch;
+use crate::task::Task;
+use burn::module::{Module, ModuleVisitor, Param};
+use burn::optim::GradientsParams;
+use burn::tensor::{Device, Gradients, Tensor};
+use std::panic::resume_unwind;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+/// Several devices that compute the gradients of one network together.
+///
+/// Batch normalisation sees a part of the batch at a time, and the statistics that stay are those of
+/// the main device's parts.
+pub(crate) struct Replicas<T: Task> {
+    recipe: TrainRecipe,
+    main: Device,
+    workers: Vec<Worker<T::Network>>,
+}
+
+/// A device besides the main one, with a thread as long as the run: GPU streams and their memory
+/// belong to threads.
+struct Worker<N> {
+    jobs: Sender<Job<N>>,
+    results: Receiver<PartResult>,
+    thread: JoinHandle<()>,
+}
+
+struct Job<N> {
+    network: N,
+    part: Batch,
+    share: f32,
+}
+
+struct PartResult {
+    loss: f32,
+    /// On the main device.
+    gradients: GradientsParams,
+}
+
+impl<T: Task> Replicas<T> {
+    /// Starts a thread for each of `others`. The network lives on `main`, which the calling thread
+    /// keeps busy. Gradients must be switched on on every device.
+    pub(crate) fn new(recipe: &TrainRecipe, main: &Device, others: &[Device]) -> Self {
+        let start = |device: &Device| start::<T>(recipe.clone(), main.clone(), device.clone());
+        Self {
+            recipe: recipe.clone(),
+            main: main.clone(),
+            workers: others.iter().map(start).collect(),
+        }
+    }
+
+    /// Loss of a batch and its gradients for `network`: those that the main device would have found
+    /// alone, up to rounding. Sums are taken in the order of the devices, whoever is done first.
+    ///
+    /// # Panics
+    /// When the computation on a device does, like one on the main device.
+    pub(crate) fn gradients(&mut self, network: &T::Network, batch: &Batch) -> (f32, Gradients) {
+        let mut parts = shares::<T>(divided(batch, self.workers.len() + 1)).into_iter();
+        let Some((own, share)) = parts.next() else {
+            unreachable!("recipes with empty batches are refused");
+        };
+        let busy = parts.len();
+        for (worker, (part, share)) in self.workers.iter().zip(parts) {
+            // A clone would share the running statistics of batch normalisation, and forking it
+            // would move them away from the main device; a validation snapshot has its own.
+            let network = network.valid();
+            // A thread that is gone is noticed when its result is wanted.
+            let _ = worker.jobs.send(Job {
+                network,
+                part,
+                share,
+            });
+        }
+        let loss = T::loss(&self.recipe, network, &own, &self.main) * share;
+        let mut gradients = loss.backward();
+        let mut loss = scalar(loss);
+        for index in 0..busy {
+            let Ok(result) = self.workers[index].results.recv() else {
+                panic_like(self.workers.swap_remove(index));
+            };
+            loss += result.loss;
+            network.visit(&mut Adder {
+                sum: &mut gradients,
+                part: result.gradients,
+            });
+        }
+        (loss, gradients)
+    }
+}
+
+/// Computes on a device until nobody has jobs for it any more.
+fn start<T: Task>(recipe: TrainRecipe, main: Device, device: Device) -> Worker<T::Network> {
+    let (jobs, todo) = channel::<Job<T::Network>>();
+    let (done, results) = channel();
+    let thread = std::thread::spawn(move || {
+        for job in todo {
+            let replica = job.network.fork(&device).train();
+            let loss = T::loss(&recipe, &replica, &job.part, &device) * job.share;
+            let gradients = GradientsParams::from_grads(loss.backward(), &replica);
+            let result = PartResult {
+                loss: scalar(loss),
+                gradients: gradients.to_device(&main, &replica),
+            };
+            if done.send(result).is_err() {
+                return;
+            }
+        }
+    });
+    Worker {
+        jobs,
+        results,
+        thread,
+    }
+}
+
+/// Continues the panic of a thread that ended before its result.
+fn panic_like<N>(worker: Worker<N>) -> ! {
+    match worker.thread.join() {
+        Err(panic) => resume_unwind(panic),
+        Ok(()) => unreachable!("the thread ends only without jobs or with a panic"),
+    }
+}
+
+/// Adds the gradients of a part to the sum.
+struct Adder<'a> {
+    sum: &'a mut Gradients,
+    part: GradientsParams,
+}
+
+impl ModuleVisitor for Adder<'_> {
+    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
+        let Some(part) = self.part.remove::<D>(param.id) else {
+            return;
+        };
+        let weights = param.val();
+        let sum = match weights.grad(self.sum) {
+            Some(sum) => sum + part,
+            None => part,
+        };
+        weights.grad_replace(self.sum, sum);
+    }
+}
+
+/// A loss as a number.
+pub(crate) fn scalar(loss: Tensor<1>) -> f32 {
+    host(loss).first().copied().unwrap_or(f32::NAN)
+}
+
+/// The samples of a batch in up to `count` parts of nearly the same size, none empty.
+fn divided(batch: &Batch, count: usize) -> Vec<Batch> {
+    let count = count.min(batch.samples);
+    let part = |index: usize| {
+        let [from, to] = [index, index + 1].map(|border| border * batch.samples / count);
+        let of = |values: &[f32]| {
+            let each = values.len() / batch.samples;
+            values[from * each..to * each].to_vec()
+        };
+        Batch {
+            samples: to - from,
+            images: batch.images,
+            size: batch.size,
+            channels: batch.channels,
+            input: of(&batch.input),
+            target: of(&batch.target),
+        }
+    };
+    (0..count).map(part).collect()
+}
+
+/// Parts with their share of the whole loss. Parts without any (crops beside the object) are left
+/// out: their own loss is 0/0.
+fn shares<T: Task>(parts: Vec<Batch>) -> Vec<(Batch, f32)> {
+    let weights: Vec<f32> = parts.iter().map(T::weight).collect();
+    let whole: f32 = weights.iter().sum();
+    let shares = weights.iter().map(|weight| weight / whole);
+    // Where no part has any, all stay, and the loss is no number, as on one device.
+    let some = |(_, share): &(Batch, f32)| *share != 0.0;
+    parts.into_iter().zip(shares).filter(some).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adam::Adam;
+    use crate::adam::HostGradients;
+    use crate::light_task::LightTask;
+    use crate::loader::BatchMaker;
+    use crate::normal_task::NormalTask;
+    use crate::samples::SampleMaker;
+    use crate::source::Source;
+    use normalight_model::{CellNormal, Genotypes, NormalBody, Upsampling};
+    use std::sync::Arc;
+
+    /// A main device, and another of a different kind: what belongs to one cannot be used on the other.
+    #[expect(
+        deprecated,
+        reason = "the reference is pinned to the last Burn that has it"
+    )]
+    fn devices() -> [Device; 2] {
+        [Device::flex().autodiff(), Device::ndarray().autodiff()]
+    }
+
+    /// An odd number of samples, so that parts differ in size.
+    fn recipe(network: &str, size: usize) -> TrainRecipe {
+        let text = format!(
+            "network = \"{network}\"\nsteps = 3\nsize = {size}\nbatch = 5\nimages = [3, 4]\n"
+        );
+        TrainRecipe::parse("recipe.toml", &text).unwrap()
+    }
+
+    fn batches<T: Task>(recipe: &TrainRecipe) -> Vec<Batch> {
+        let source = Arc::new(Source::open(recipe, T::FRAMING).unwrap());
+        let mut maker = SampleMaker::<T>::new(recipe, &source, None);
+        (0..recipe.steps)
+            .map(|step| maker.make(step).unwrap())
+            .collect()
+    }
+
+    /// The gradient of every weight, or the weights themselves.
+    struct Values<'a>(Option<&'a Gradients>, Vec<Vec<f32>>);
+
+    impl ModuleVisitor for Values<'_> {
+        fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
+            let values = match self.0 {
+                Some(gradients) => param.val().grad(gradients),
+                None => Some(param.val()),
+            };
+            self.1.push(values.map_or(Vec::new(), host));
+        }
+    }
+
+    fn values<M: Module>(network: &M, gradients: Option<&Gradients>) -> Vec<Vec<f32>> {
+        let mut values = Values(gradients, Vec::new());
+        network.visit(&mut values);
+        values.1
+    }
+
+    /// Distance of two lists relative to the second one's length.
+    fn apart(one: &[f32], two: &[f32]) -> f32 {
+        assert_eq!(one.len(), two.len());
+        let norm =
+            |values: &mut dyn Iterator<Item = f32>| values.map(|v| v * v).sum::<f32>().sqrt();
+        norm(&mut one.iter().zip(two).map(|(a, b)| a - b)) / norm(&mut two.iter().copied())
+    }
+
+    /// Three steps on one device and on several.
+    fn compare<T: Task>(recipe: &TrainRecipe, main: &Device, others: &[Device]) {
+        let mut replicas = Replicas::<T>::new(recipe, main, others);
+        let mut alone = T::network(recipe, main).unwrap();
+        // Weights are drawn when first wanted; a clone made before would draw its own.
+        let start = values(&alone, None).concat();
+        let mut together = alone.clone();
+        let mut adams = [Adam::default(), Adam::default()];
+        for batch in &batches::<T>(recipe) {
+            let loss = T::loss(recipe, &alone, batch, main);
+            let gradients = loss.backward();
+            let loss = scalar(loss);
+            let (summed_loss, summed) = replicas.gradients(&together, batch);
+            assert!((summed_loss - loss).abs() < 1e-4 * loss.abs());
+            let expected = values(&alone, Some(&gradients));
+            let found = values(&together, Some(&summed));
+            assert!(expected.iter().all(|gradient| !gradient.is_empty()));
+            for (found, expected) in found.iter().zip(&expected) {
+                let apart = apart(found, expected);
+                assert!(apart < 1e-2, "a gradient is off by {apart} of its length");
+            }
+            let [own, sum] = [(&alone, &gradients), (&together, &summed)]
+                .map(|(network, gradients)| HostGradients::new(network, gradients));
+            alone = adams[0].step(alone, own, 1e-3, &recipe.optimiser);
+            together = adams[1].step(together, sum, 1e-3, &recipe.optimiser);
+        }
+        let moved = |network: &T::Network| -> Vec<f32> {
+            let weights = values(network, None).concat();
+            weights.iter().zip(&start).map(|(w, s)| w - s).collect()
+        };
+        let apart = apart(&moved(&together), &moved(&alone));
+        assert!(apart < 3e-2, "the steps differ by {apart} of their length");
+    }
+
+    #[test]
+    fn parts_of_a_batch_add_up_to_the_whole() {
+        let [main, _] = devices();
+        let normal = recipe("normal", 16);
+        let light = recipe("light", 64);
+        for others in 1..3 {
+            let others = vec![main.clone(); others];
+            compare::<NormalTask>(&normal, &main, &others);
+            compare::<LightTask>(&light, &main, &others);
+        }
+    }
+
+    #[test]
+    fn different_and_idle_devices_and_parts_without_an_object_do_no_harm() {
+        let [main, other] = devices();
+        let recipe = recipe("normal", 16);
+        let mut batch = batches::<NormalTask>(&recipe).swap_remove(0);
+        // The first sample becomes a crop beside the object: no truth, no mask.
+        batch.target[..4 * 16 * 16].fill(0.0);
+        let network = NormalTask::network(&recipe, &main).unwrap();
+        let loss = NormalTask::loss(&recipe, &network, &batch, &main);
+        let gradients = loss.backward();
+        let mut replicas = Replicas::<NormalTask>::new(&recipe, &main, &vec![other; 6]);
+        let (summed_loss, summed) = replicas.gradients(&network, &batch);
+        assert!((summed_loss - scalar(loss)).abs() < 1e-5);
+        let expected = values(&network, Some(&gradients)).concat();
+        // Another implementation rounds differently, and a maximum may move to another image.
+        assert!(apart(&values(&network, Some(&summed)).concat(), &expected) < 5e-2);
+    }
+
+    #[test]
+    fn running_statistics_are_those_of_the_main_device() {
+        let [main, other] = devices();
+        let mut recipe = recipe("normal", 16);
+        let paper = Genotypes::from_json(
+            "paper",
+            include_str!("../../../models/genotypes/paper.json"),
+        )
+        .unwrap();
+        recipe.normal.architecture.body = NormalBody::Cells(CellNormal {
+            width: 2,
+            stem_strides: [1, 2],
+            upsampling: Upsampling::Nearest,
+            fused_convolutions: 1,
+            genotype: paper.normal.unwrap(),
+        });
+        let network = NormalTask::network(&recipe, &main).unwrap();
+        let start = values(&network, None);
+        let main_only = network.valid().train();
+        let mut replicas = Replicas::<NormalTask>::new(&recipe, &main, &[other]);
+        for batch in &batches::<NormalTask>(&recipe) {
+            replicas.gradients(&network, batch);
+            NormalTask::loss(&recipe, &main_only, &divided(batch, 2)[0], &main);
+        }
+        let statistics = values(&network.valid(), None);
+        assert!(statistics == values(&main_only.valid(), None) && statistics != start);
+    }
+
+    #[test]
+    #[should_panic(expected = "no memory left")]
+    fn a_panic_on_another_device_is_not_lost() {
+        let [main, _] = devices();
+        let recipe = recipe("normal", 16);
+        let network = NormalTask::network(&recipe, &main).unwrap();
+        let mut replicas = Replicas::<NormalTask>::new(&recipe, &main, &[]);
+        replicas.workers.push(Worker {
+            jobs: channel().0,
+            results: channel().1,
+            thread: std::thread::spawn(|| panic!("no memory left")),
+        });
+        replicas.gradients(&network, &batches::<NormalTask>(&recipe)[0]);
+    }
+}
