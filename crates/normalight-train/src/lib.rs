@@ -31,6 +31,7 @@ mod run_folder;
 mod samples;
 mod session;
 mod source;
+mod speed;
 mod summary;
 mod task;
 mod training_loop;
@@ -43,5 +44,6 @@ pub use recipe::{
 };
 pub use run::{Devices, TrainRun, train};
 pub use session::TrainEvent;
+pub use speed::{OptimiserStep, SampleSource};
 pub use summary::{Best, RunState, Summary};
 pub use training_loop::StepReport;

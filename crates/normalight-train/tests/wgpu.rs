@@ -34,7 +34,8 @@ fn software_gpu() -> Option<Device> {
 fn run(folder: &Path, network: &str, size: usize, device: &Device, until: usize) -> Vec<f32> {
     let text = format!(
         "network = \"{network}\"\nsteps = 100\nsize = {size}\nbatch = 2\nimages = [3, 4]\n\
-         warm_up = 2\nvalidate_every = 100\nvalidation_objects = 1\n"
+         validate_every = 100\nvalidation_objects = 1\n\
+         [optimiser]\nwarm_up = 2\n"
     );
     let run = TrainRun {
         recipe: TrainRecipe::parse("recipe.toml", &text).unwrap(),

@@ -46,6 +46,7 @@ pub(crate) fn run(args: &BenchTrainArgs) -> Result<Outcome> {
     };
     threads.dedup();
     let least = Duration::from_secs_f64(args.seconds);
+    let data_ms = networks::data_ms()?;
     let mut report = Report {
         version: env!("CARGO_PKG_VERSION"),
         operations: if args.generic { "generic" } else { "own" },
@@ -60,7 +61,7 @@ pub(crate) fn run(args: &BenchTrainArgs) -> Result<Outcome> {
             .build()
             .with_context(|| format!("{threads} threads cannot be started"))?;
         let measured = pool.install(|| {
-            let mut measure = || measure(args, threads, least, &mut report);
+            let mut measure = || measure(args, threads, least, data_ms, &mut report);
             if args.generic {
                 normalight_kernels::generic(measure)
             } else {
@@ -85,6 +86,7 @@ fn measure(
     args: &BenchTrainArgs,
     threads: usize,
     least: Duration,
+    data_ms: f64,
     report: &mut Report,
 ) -> Result<bool> {
     let device = Device::flex();
@@ -101,7 +103,7 @@ fn measure(
         if wanted {
             report
                 .cases
-                .push(network.measure(&device, threads, matmul, least)?);
+                .push(network.measure(&device, threads, matmul, least, data_ms)?);
         }
     }
     if args.ops {

@@ -114,7 +114,6 @@ impl Backward<'_> {
             .map(|(((of_input, input), output), gradient)| {
                 let mut of_weight = Buffer::zeros(weights);
                 let mut of_bias = Buffer::zeros(geometry.channels_out);
-                of_input.fill(0.0);
                 if by_winograd {
                     winograd::Backward {
                         geometry,

@@ -107,7 +107,7 @@ pub(crate) struct Backward<'a> {
 }
 
 impl Backward<'_> {
-    /// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and those of the input
+    /// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and writes those of the input
     /// unless that is empty.
     pub(crate) fn add(&self, of_weight: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
         let geometry = self.geometry;
@@ -130,6 +130,7 @@ impl Backward<'_> {
             if !of_input.is_empty() {
                 let size = geometry.image_in();
                 let of_image = &mut of_input[index * size..(index + 1) * size];
+                of_image.fill(0.0);
                 add_to_image(geometry, self.transposed, before, of_image);
             }
         }
@@ -223,12 +224,12 @@ pub(crate) fn add_to_image(
     }
     let mut unfolded = Buffer::stale(width * taps);
     let line = geometry.seen_width() * channels_in;
+    let run = geometry.size * channels_in;
     let mut seen = Buffer::stale(geometry.size * line);
     for (row, before) in before.chunks_exact(width * channels_out).enumerate() {
         product(width, before, &mut unfolded);
         seen.fill(0.0);
         pulp::Arch::new().dispatch(|| {
-            let run = geometry.size * channels_in;
             for (x, pixel) in unfolded.chunks_exact(taps).enumerate() {
                 let from = x * geometry.stride * channels_in;
                 for (seen, pixel) in seen.chunks_exact_mut(line).zip(pixel.chunks_exact(run)) {

@@ -216,8 +216,8 @@ pub(crate) struct Backward<'a> {
 }
 
 impl Backward<'_> {
-    /// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and those of the input
-    /// unless that is empty.
+    /// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and writes those of the
+    /// input unless that is empty.
     pub(crate) fn add(&self, of_points: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
         let geometry = self.geometry;
         let grid = TileRows::new(geometry);
@@ -340,6 +340,9 @@ impl Backward<'_> {
             .run();
             let image = row / grid.per_image * geometry.image_in();
             let image = &mut of_input[image..image + geometry.image_in()];
+            if row.is_multiple_of(grid.per_image) {
+                image.fill(0.0);
+            }
             add_window(geometry, window, &seen, image);
         }
     }

@@ -7,6 +7,7 @@ use normalight_model::{
     CellNormal, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Upsampling,
     normal_cost, paper_genotypes,
 };
+use normalight_train::{OptimiserStep, SampleSource, TrainRecipe};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -25,7 +26,7 @@ pub(super) struct Case {
     pub(super) forward_ms: f64,
     pub(super) backward_ms: f64,
     pub(super) optimiser_ms: f64,
-    /// Drawing and preparing samples on one thread; in training other threads do it.
+    /// One thread's time for drawing and preparing samples; in training other threads do it.
     pub(super) data_ms: f64,
     pub(super) samples_per_second: f64,
     pub(super) parameters: usize,
@@ -70,6 +71,17 @@ pub(super) fn all() -> Result<Vec<Candidate>> {
     ])
 }
 
+/// Milliseconds of one thread for drawing and preparing a sample.
+pub(super) fn data_ms() -> Result<f64> {
+    let text = format!(
+        "network = \"normal\"\nsteps = 1000\nsize = {SIDE}\nbatch = {BATCH}\nimages = [{IMAGES}, {IMAGES}]\n"
+    );
+    let mut source = SampleSource::new(&TrainRecipe::parse("bench", &text)?)?;
+    let start = Instant::now();
+    let samples = source.group()?;
+    Ok(1e3 * start.elapsed().as_secs_f64() / samples as f64)
+}
+
 impl Candidate {
     pub(super) fn measure(
         &self,
@@ -77,6 +89,7 @@ impl Candidate {
         threads: usize,
         matmul: f64,
         least: Duration,
+        data_ms: f64,
     ) -> Result<Case> {
         let device = device.clone().autodiff();
         let network = NormalNetwork::new(&self.architecture, false, &device)?;
@@ -84,15 +97,20 @@ impl Candidate {
         let random = |shape| Tensor::<4>::random(shape, Distribution::Default, &device);
         let input = random([BATCH * IMAGES, SIDE, SIDE, channels]);
         let truth = random([BATCH, SIDE, SIDE, 3]);
-        let [both, forward, backward] = median_seconds(least, || {
+        let mut optimiser = OptimiserStep::default();
+        let mut network = Some(network);
+        let [both, forward, backward, step] = median_seconds(least, || {
+            let trained = network.take().expect("every repetition leaves a network");
+
             let start = Instant::now();
-            let features = network.features(input.clone());
-            let normals = network.regress(max_over_images(features, BATCH));
+            let features = trained.features(input.clone());
+            let normals = trained.regress(max_over_images(features, BATCH));
             let loss = (normals * truth.clone()).mean();
             let forward = start.elapsed();
-            std::hint::black_box(loss.backward());
+            let gradients = loss.backward();
             let both = start.elapsed();
-            [both, forward, both - forward]
+            network = Some(optimiser.take(trained, &gradients));
+            [both, forward, both - forward, start.elapsed() - both]
         });
         let cost = normal_cost(&self.architecture, SIDE * SIDE);
         let per_sample = |seconds: f64| 1e3 * seconds / BATCH as f64;
@@ -103,8 +121,8 @@ impl Candidate {
             ms_per_sample: per_sample(both),
             forward_ms: per_sample(forward),
             backward_ms: per_sample(backward),
-            optimiser_ms: 0.0,
-            data_ms: 0.0,
+            optimiser_ms: per_sample(step),
+            data_ms,
             samples_per_second: BATCH as f64 / both,
             parameters: cost.parameters,
             gflops,

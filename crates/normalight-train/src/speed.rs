@@ -1,0 +1,58 @@
+//! Parts of a training step by themselves, for measuring their speed.
+use crate::adam::{Adam, HostGradients};
+use crate::loader::BatchMaker;
+use crate::normal_task::NormalTask;
+use crate::samples::SampleMaker;
+use crate::source::Source;
+use crate::task::Task;
+use crate::{OptimiserRecipe, TrainError, TrainRecipe};
+use burn::module::Module;
+use burn::tensor::Gradients;
+use std::sync::Arc;
+
+/// The optimiser as training uses it.
+#[derive(Debug, Default)]
+pub struct OptimiserStep {
+    adam: Adam,
+    recipe: OptimiserRecipe,
+}
+
+impl OptimiserStep {
+    /// Gradients to the host, clipping, Adam, weights back to the device.
+    pub fn take<M: Module>(&mut self, network: M, gradients: &Gradients) -> M {
+        let gradients = HostGradients::new(&network, gradients);
+        let rate = self.recipe.learning_rate;
+        self.adam.step(network, gradients, rate, &self.recipe)
+    }
+}
+
+/// Samples of a normal network's recipe as training gets them, on the calling thread.
+pub struct SampleSource {
+    maker: SampleMaker<NormalTask>,
+    steps: std::ops::RangeFrom<usize>,
+}
+
+impl SampleSource {
+    /// # Errors
+    /// What is wrong with the recipe or its files.
+    pub fn new(recipe: &TrainRecipe) -> Result<Self, TrainError> {
+        recipe.validate()?;
+        let source = Arc::new(Source::open(recipe, NormalTask::FRAMING)?);
+        Ok(Self {
+            maker: SampleMaker::new(recipe, &source, None),
+            steps: 0..,
+        })
+    }
+
+    /// Makes the batches of all steps that share their scenes; returns the number of samples.
+    ///
+    /// # Errors
+    /// Files that cannot be read.
+    pub fn group(&mut self) -> Result<usize, TrainError> {
+        let mut samples = 0;
+        for step in self.steps.by_ref().take(self.maker.together()) {
+            samples += self.maker.make(step)?.samples;
+        }
+        Ok(samples)
+    }
+}
