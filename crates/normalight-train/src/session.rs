@@ -170,3 +170,125 @@ impl<O: FnMut(TrainEvent) -> ControlFlow<()>> Session<'_, O> {
         Ok(summary)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learner::Learned;
+    use crate::named_tensors::NamedTensors;
+    use crate::task::Validation;
+    use std::collections::BTreeMap;
+    use std::path::Path;
+
+    /// Another kind of training than that of our networks: one number walks towards the batches.
+    struct Walker(f32);
+
+    struct Targets;
+
+    impl BatchMaker for Targets {
+        type Batch = f32;
+
+        fn for_thread(&self) -> Self {
+            Self
+        }
+
+        fn together(&self) -> usize {
+            2
+        }
+
+        fn make(&mut self, step: usize) -> Result<f32, TrainError> {
+            Ok((step as f32).sin())
+        }
+    }
+
+    impl Learner for Walker {
+        type Batch = f32;
+
+        fn learn(&mut self, batch: &f32, step: usize) -> Result<Learned, TrainError> {
+            let gradient = self.0 - batch;
+            self.0 -= self.rate(step) * gradient;
+            Ok(Learned {
+                loss: gradient * gradient,
+                gradient_norm: gradient.abs(),
+            })
+        }
+
+        fn validate(&self) -> Result<Validation, TrainError> {
+            Ok(Validation {
+                degrees: self.0.abs(),
+                figures: BTreeMap::new(),
+            })
+        }
+
+        fn result(&self) -> Result<Option<Vec<u8>>, TrainError> {
+            Ok(Some(self.0.to_string().into_bytes()))
+        }
+
+        fn state(&self) -> NamedTensors {
+            NamedTensors::from([("walker".to_owned(), vec![self.0])])
+        }
+
+        fn restore(&mut self, state: NamedTensors, _step: usize) -> Result<(), String> {
+            self.0 = *state
+                .get("walker")
+                .and_then(|w| w.first())
+                .ok_or("no walker")?;
+            Ok(())
+        }
+
+        fn rate(&self, _step: usize) -> f32 {
+            0.1
+        }
+
+        fn batch_seed(&self, step: usize) -> u64 {
+            step as u64
+        }
+    }
+
+    fn walk(folder: &Path, stop_at: usize) -> Result<Summary, TrainError> {
+        let job = Job {
+            folder: folder.to_owned(),
+            resume: true,
+            recipe: "stride = 0.1\n".to_owned(),
+            network: Network::Normal,
+            parameters: 1,
+            seed: 0,
+            pace: Pace {
+                steps: 20,
+                validate_every: 5,
+                checkpoint_every: 3,
+                batch: 1,
+            },
+            result: "place.txt",
+        };
+        let mut observe = |event| match event {
+            TrainEvent::Step(report) if report.step == stop_at => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        let train = |session: &mut Session<_>| {
+            let mut walker = Walker(f32::NAN);
+            session.begin(&mut walker, |walker| {
+                walker.0 = 3.0;
+                Ok("at three".to_owned())
+            })?;
+            session.go(&mut walker, &Targets, 2)
+        };
+        run_job(&job, &mut observe, train, |_| "A walk.\n".to_owned())
+    }
+
+    /// Loop, checkpoints, curves and summary know nothing of networks.
+    #[test]
+    fn any_learner_can_be_run() {
+        let (straight, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let whole = walk(straight.path(), 0).unwrap();
+        assert_eq!((whole.state, whole.steps), (RunState::Finished, 20));
+        let first = walk(broken.path(), 7).unwrap();
+        assert_eq!((first.state, first.steps), (RunState::Interrupted, 7));
+        let second = walk(broken.path(), 0).unwrap();
+        assert_eq!((second.best, second.loss), (whole.best, whole.loss));
+        for name in ["place.txt", "curves.png", "model-card.md"] {
+            let read = |folder: &Path| std::fs::read(folder.join(name)).unwrap();
+            assert!(read(straight.path()) == read(broken.path()), "{name}");
+        }
+    }
+}
