@@ -25,7 +25,7 @@ impl Default for RefitSettings {
     fn default() -> Self {
         Self {
             albedo_quantile: 0.4,
-            step: 0.5,
+            step: 0.25,
             max_pixels: 32_768,
             rounds: 8,
         }
@@ -340,7 +340,10 @@ mod tests {
                 Light::new(light.direction + drift, 1.0)
             })
             .collect();
-        let settings = RefitSettings::default();
+        let settings = RefitSettings {
+            step: 0.5,
+            ..RefitSettings::default()
+        };
         let lights = refit_lights(&stack, &mask, &normals, &wrong, settings).unwrap();
         let before = mean_light_error(&wrong, &truth).unwrap();
         let after = mean_light_error(&lights, &truth).unwrap();

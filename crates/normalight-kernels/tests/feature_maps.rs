@@ -2,7 +2,7 @@
 mod common;
 
 use burn::tensor::{Device, Tensor};
-use common::{compare, random, reference, results, values};
+use common::{check_slope, compare, random, reference, results, values};
 use normalight_kernels::{
     BatchMoments, batch_norm, channels_first, channels_last, depthwise_relu, max_over_images,
     scale_channels,
@@ -40,6 +40,49 @@ fn depthwise_convolutions_agree_with_the_reference() {
             &format!("{shape:?} {size} {stride}"),
         );
     }
+}
+
+#[test]
+fn gradients_are_slopes() {
+    // Away from the kink of the ReLU.
+    let input = |shape: &[usize]| {
+        let values = random(shape, 1).try_to_vec::<f32>().unwrap();
+        let values = values.into_iter().map(|v| v + 0.1f32.copysign(v));
+        burn::tensor::TensorData::new(values.collect::<Vec<f32>>(), shape.to_vec())
+    };
+    for (size, stride, channels) in [(3, 1, 8), (5, 1, 20), (5, 2, 16), (1, 1, 3)] {
+        let (input, weight) = (
+            input(&[2, 6, 8, channels]),
+            random(&[channels, 1, size, size], 2),
+        );
+        check_slope(
+            [&input, &weight],
+            &random(&[1], 3),
+            0.02,
+            |input, weight, _| depthwise_relu(input, weight, stride),
+        );
+    }
+    let (map, gamma) = (input(&[3, 6, 5, 12]), random(&[12, 1, 1, 1], 2));
+    check_slope(
+        [&map, &gamma],
+        &random(&[12], 3),
+        0.01,
+        |input, gamma, beta| {
+            let moments = BatchMoments::new(&input);
+            batch_norm(input, &moments, gamma.flatten(0, 3), beta, 1e-5)
+        },
+    );
+    // Maxima that a small step does not change: the images are far apart.
+    let far: Vec<f32> = (0..4 * 30)
+        .map(|k| ((k / 30 * 7 + k % 30 * 5) % 4) as f32)
+        .collect();
+    let far = burn::tensor::TensorData::new(far, [4, 2, 3, 5]);
+    check_slope(
+        [&far, &random(&[1, 1, 1, 1], 2)],
+        &random(&[1], 3),
+        0.02,
+        |input, _, _| max_over_images(input, 2),
+    );
 }
 
 #[test]

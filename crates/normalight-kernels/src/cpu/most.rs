@@ -11,7 +11,7 @@ pub(crate) fn forward(input: &[f32], images: usize, size: usize) -> (Buffer, Vec
     let samples = input.len() / (images * size).max(1);
     let mut most = Buffer::stale(samples * size);
     let mut which = vec![0u32; samples * size];
-    let block = size.min(BLOCK).max(1);
+    let block = size.clamp(1, BLOCK);
     most.par_chunks_mut(size.max(1))
         .zip(which.par_chunks_mut(size.max(1)))
         .zip(input.par_chunks((images * size).max(1)))

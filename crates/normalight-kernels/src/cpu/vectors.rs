@@ -4,8 +4,15 @@ use pulp::{Arch, MemMask, Simd, WithSimd};
 /// Runs an operation with the widest vectors.
 pub(crate) fn run<T: WithSimd>(operation: T) -> T::Output {
     #[cfg(test)]
-    if tests::PLAIN.get() {
-        return operation.with_simd(pulp::Scalar);
+    match tests::LEVEL.get() {
+        tests::Level::Widest => {}
+        tests::Level::Plain => return operation.with_simd(pulp::Scalar),
+        #[cfg(target_arch = "x86_64")]
+        tests::Level::Avx2 => {
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                return Simd::vectorize(simd, operation);
+            }
+        }
     }
     Arch::new().dispatch(operation)
 }
@@ -70,11 +77,101 @@ impl<S: Simd> Lanes<S> {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
+    use crate::cpu::convolution;
+    use crate::cpu::depthwise::Depthwise;
+    use crate::cpu::geometry::Geometry;
     use std::cell::Cell;
 
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub(super) enum Level {
+        Widest,
+        #[cfg(target_arch = "x86_64")]
+        Avx2,
+        Plain,
+    }
+
     thread_local! {
-        /// Whether this thread does without vector instructions.
-        pub(crate) static PLAIN: Cell<bool> = const { Cell::new(false) };
+        /// Vectors that this thread uses.
+        pub(super) static LEVEL: Cell<Level> = const { Cell::new(Level::Widest) };
+    }
+
+    fn wave(count: usize, pace: f32) -> Vec<f32> {
+        (0..count).map(|k| (k as f32 * pace).sin()).collect()
+    }
+
+    /// Output and gradients of a convolution by Winograd, a strided one and a depthwise one.
+    fn everything(level: Level) -> Vec<f32> {
+        LEVEL.set(level);
+        let mut all = Vec::new();
+        for (stride, channels_in, channels_out) in [(1, 20, 9), (2, 5, 19)] {
+            let geometry = Geometry {
+                batch: 2,
+                channels_in,
+                channels_out,
+                stored_height: 9,
+                stored_width: 7,
+                zoom: 1,
+                size: 3,
+                stride,
+                origin: -1,
+            };
+            let input = wave(2 * geometry.image_in(), 0.7);
+            let weight = wave(channels_out * geometry.taps(), 0.3);
+            let bias = wave(channels_out, 1.1);
+            let output = convolution::forward(&geometry, &input, &weight, &bias, 0.1);
+            let gradient = wave(output.len(), 0.9);
+            let found = convolution::Backward {
+                geometry: &geometry,
+                input: &input,
+                weight: &weight,
+                output: &output,
+                gradient: &gradient,
+                slope: 0.1,
+                wants_input: true,
+                wants_bias: true,
+            }
+            .gradients();
+            for part in [output, found.weight, found.bias] {
+                all.extend_from_slice(&part);
+            }
+            all.extend(found.input.iter().flat_map(|values| values.iter()));
+        }
+        let depthwise = Depthwise {
+            batch: 2,
+            height: 9,
+            width: 7,
+            channels: 20,
+            size: 5,
+            stride: 2,
+        };
+        let (input, weight) = (wave(2 * depthwise.image_in(), 0.7), wave(20 * 25, 0.3));
+        let output = depthwise.forward(&input, &weight);
+        let (of_input, of_weight) = depthwise.backward(&input, &weight, &wave(output.len(), 0.9));
+        for part in [output, of_input, of_weight] {
+            all.extend_from_slice(&part);
+        }
+        LEVEL.set(Level::Widest);
+        all
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_numbers() {
+        // The level belongs to a thread, so all work is done on one.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.unwrap().install(|| {
+            let widest = everything(Level::Widest);
+            let mut others = vec![Level::Plain];
+            #[cfg(target_arch = "x86_64")]
+            others.push(Level::Avx2);
+            for level in others {
+                let found = everything(level);
+                assert_eq!(found.len(), widest.len());
+                for (found, expected) in found.into_iter().zip(&widest) {
+                    let close = (found - expected).abs() < 1e-4 * expected.abs().max(1.0);
+                    assert!(close, "{level:?}: {found} {expected}");
+                }
+            }
+        });
     }
 }

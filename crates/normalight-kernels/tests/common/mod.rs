@@ -67,3 +67,56 @@ pub fn compare(ours: &Results, reference: &Results, tolerance: f32, case: &str) 
         }
     }
 }
+
+/// Central differences of a randomly weighted sum of the outputs along a random direction of input, weight and bias
+/// together, against the gradients. The operation must have no kink within `step` of the point.
+pub fn check_slope(
+    [input, weight]: [&TensorData; 2],
+    bias: &TensorData,
+    step: f32,
+    operation: impl Fn(Tensor<4>, Tensor<4>, Tensor<1>) -> Tensor<4>,
+) {
+    let device = Device::flex().autodiff();
+    let numbers = |data: &TensorData| data.clone().try_to_vec::<f32>().unwrap();
+    let points = [input, weight, bias].map(numbers);
+    let directions = [(input, 11), (weight, 12), (bias, 13)]
+        .map(|(data, seed)| numbers(&random(&data.shape().to_vec(), seed)));
+    let value = |distance: f32| -> f64 {
+        let moved: Vec<Vec<f32>> = points
+            .iter()
+            .zip(&directions)
+            .map(|(point, direction)| {
+                let both = point.iter().zip(direction);
+                both.map(|(a, b)| a + distance * b).collect()
+            })
+            .collect();
+        let data =
+            |k: usize, like: &TensorData| TensorData::new(moved[k].clone(), like.shape().to_vec());
+        let output = operation(
+            Tensor::from_data(data(0, input), &device),
+            Tensor::from_data(data(1, weight), &device),
+            Tensor::from_data(data(2, bias), &device),
+        );
+        let factors = numbers(&random(&output.dims(), 4));
+        let both = values(output).into_iter().zip(factors);
+        both.map(|(a, b)| f64::from(a) * f64::from(b)).sum()
+    };
+    let found = (value(step) - value(-step)) / (2.0 * f64::from(step));
+    let expected: f64 = results(&device, [input, weight], bias, &operation)
+        .into_iter()
+        .filter_map(|(name, gradient)| {
+            let k = ["input", "weight", "bias"]
+                .iter()
+                .position(|n| *n == name)?;
+            let both = gradient.iter().zip(&directions[k]);
+            Some(
+                both.map(|(a, b)| f64::from(*a) * f64::from(*b))
+                    .sum::<f64>(),
+            )
+        })
+        .sum();
+    assert!(
+        (found - expected).abs() < 0.01 * expected.abs().max(1.0),
+        "slope {found}, gradients say {expected}"
+    );
+}

@@ -74,6 +74,7 @@ fn check_window(tiles: usize, columns: usize, channels: usize, length: usize) {
 }
 
 #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
+#[expect(clippy::needless_range_loop, reason = "a column of an array of rows")]
 impl WithSimd for Gather<'_> {
     type Output = ();
 
@@ -267,6 +268,7 @@ impl Spread<'_> {
 }
 
 #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
+#[expect(clippy::needless_range_loop, reason = "a column of an array of rows")]
 impl WithSimd for Spread<'_> {
     type Output = ();
 
