@@ -12,6 +12,7 @@ use burn::module::Module;
 use burn::tensor::Device;
 use normalight_model::Weights;
 use normalight_synth::Sample;
+use std::sync::{Mutex, PoisonError};
 
 /// Name of the file that holds the best weights.
 pub(crate) const RESULT: &str = "weights.safetensors";
@@ -44,8 +45,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
         others: &[Device],
     ) -> Result<Self, TrainError> {
         let training = device.clone().autodiff();
-        training.seed(recipe.seed);
-        let network = T::network(recipe, &training)?;
+        let network = seeded(&training, recipe.seed, || T::network(recipe, &training))?;
         let average = Average::new(recipe.optimiser.average, collect(&network.valid()));
         let others: Vec<Device> = others
             .iter()
@@ -87,6 +87,23 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
                 .expect("the average holds what the network holds"),
         }
     }
+}
+
+/// Builds a network from a seed.
+///
+/// The backend has one generator for the whole program, and weights are drawn when they are first looked at: both happen
+/// here while no other run does the same.
+fn seeded<M: Module>(
+    device: &Device,
+    seed: u64,
+    build: impl FnOnce() -> Result<M, TrainError>,
+) -> Result<M, TrainError> {
+    static GENERATOR: Mutex<()> = Mutex::new(());
+    let _alone = GENERATOR.lock().unwrap_or_else(PoisonError::into_inner);
+    device.seed(seed);
+    let network = build()?;
+    collect(&network);
+    Ok(network)
 }
 
 impl<T: Task> Learner for NetworkLearner<'_, T> {

@@ -34,6 +34,24 @@ struct Convolved<How> {
     how: How,
 }
 
+/// Hands the gradients of a convolution to the parents that want them: input, weight and bias. A macro, because the type
+/// of the parents has no public name.
+macro_rules! handed_over {
+    ($state:expr, $found:expr, $parents:expr, $gradients:expr) => {{
+        let (state, found, [of_input, of_weight, of_bias]) = ($state, $found, $parents);
+        if let (Some(node), Some(values)) = (of_input, found.input) {
+            $gradients.register::<Flex>(node.id, tensor(values, &dims(&state.input)));
+        }
+        if let Some(node) = of_weight {
+            $gradients.register::<Flex>(node.id, tensor(found.weight, &dims(&state.weight)));
+        }
+        if let Some(node) = of_bias {
+            let shape = [found.bias.len()];
+            $gradients.register::<Flex>(node.id, tensor(found.bias, &shape));
+        }
+    }};
+}
+
 #[derive(Debug)]
 struct ConvolutionBackward;
 
@@ -60,17 +78,7 @@ impl Backward<Flex, 3> for ConvolutionBackward {
             wants_bias: ops.parents[2].is_some(),
         }
         .gradients();
-        let [of_input, of_weight, of_bias] = ops.parents;
-        if let (Some(node), Some(values)) = (of_input, found.input) {
-            gradients.register::<Flex>(node.id, tensor(values, &dims(&state.input)));
-        }
-        if let Some(node) = of_weight {
-            gradients.register::<Flex>(node.id, tensor(found.weight, &dims(&state.weight)));
-        }
-        if let Some(node) = of_bias {
-            let shape = [geometry.channels_out];
-            gradients.register::<Flex>(node.id, tensor(found.bias, &shape));
-        }
+        handed_over!(state, found, ops.parents, gradients);
     }
 }
 
@@ -97,17 +105,7 @@ impl Backward<Flex, 3> for TransposedBackward {
             gradient.storage(),
             state.how,
         );
-        let [of_input, of_weight, of_bias] = ops.parents;
-        if let (Some(node), Some(values)) = (of_input, found.input) {
-            gradients.register::<Flex>(node.id, tensor(values, &dims(&state.input)));
-        }
-        if let Some(node) = of_weight {
-            gradients.register::<Flex>(node.id, tensor(found.weight, &dims(&state.weight)));
-        }
-        if let Some(node) = of_bias {
-            let shape = [geometry.channels_in];
-            gradients.register::<Flex>(node.id, tensor(found.bias, &shape));
-        }
+        handed_over!(state, found, ops.parents, gradients);
     }
 }
 

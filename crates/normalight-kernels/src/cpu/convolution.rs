@@ -114,27 +114,19 @@ impl Backward<'_> {
             .map(|(((of_input, input), output), gradient)| {
                 let mut of_weight = Buffer::zeros(weights);
                 let mut of_bias = Buffer::zeros(geometry.channels_out);
+                let part = Part {
+                    geometry,
+                    input,
+                    transposed: &transposed,
+                    output,
+                    gradient,
+                    slope: self.slope,
+                    wants_bias: self.wants_bias,
+                };
                 if by_winograd {
-                    winograd::Backward {
-                        geometry,
-                        input,
-                        transposed: &transposed,
-                        output,
-                        gradient,
-                        slope: self.slope,
-                    }
-                    .add(&mut of_weight, &mut of_bias, of_input);
+                    winograd::add_gradients(&part, &mut of_weight, &mut of_bias, of_input);
                 } else {
-                    direct::Backward {
-                        geometry,
-                        input,
-                        transposed: &transposed,
-                        output,
-                        gradient,
-                        slope: self.slope,
-                        wants_bias: self.wants_bias,
-                    }
-                    .add(&mut of_weight, &mut of_bias, of_input);
+                    direct::add_gradients(&part, &mut of_weight, &mut of_bias, of_input);
                 }
                 (of_weight, of_bias)
             })
@@ -149,6 +141,21 @@ impl Backward<'_> {
             bias: of_bias,
         }
     }
+}
+
+/// Some images of a batch, and what their gradients are computed from.
+pub(crate) struct Part<'a> {
+    pub(crate) geometry: &'a Geometry,
+    /// `[images, stored height, stored width, channels_in]`.
+    pub(crate) input: &'a [f32],
+    /// `[channels_out, size, size, channels_in]`; for Winograd transformed, `[36, channels_out, channels_in]`.
+    pub(crate) transposed: &'a [f32],
+    /// `[images, out_height, out_width, channels_out]`.
+    pub(crate) output: &'a [f32],
+    /// Of the output.
+    pub(crate) gradient: &'a [f32],
+    pub(crate) slope: f32,
+    pub(crate) wants_bias: bool,
 }
 
 /// Sums of the parts' gradients of weight and bias, always in the same order.

@@ -1,5 +1,6 @@
 //! Convolutions of any size and stride as matrix products over a copy of the rows that are seen.
 use crate::cpu::buffer::Buffer;
+use crate::cpu::convolution::Part;
 use crate::cpu::geometry::Geometry;
 use crate::cpu::product::{Finish, Left, Product, Right};
 use crate::cpu::window::{Window, add, add_window, copy_window};
@@ -91,48 +92,36 @@ pub(crate) fn forward(
     }
 }
 
-/// What the gradients of some images are computed from.
-pub(crate) struct Backward<'a> {
-    pub(crate) geometry: &'a Geometry,
-    /// `[images, height, width, channels_in]`.
-    pub(crate) input: &'a [f32],
-    /// `[channels_out, size, size, channels_in]`.
-    pub(crate) transposed: &'a [f32],
-    /// `[images, height, width, channels_out]`.
-    pub(crate) output: &'a [f32],
-    /// Of the output.
-    pub(crate) gradient: &'a [f32],
-    pub(crate) slope: f32,
-    pub(crate) wants_bias: bool,
-}
-
-impl Backward<'_> {
-    /// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and writes those of the input
-    /// unless that is empty.
-    pub(crate) fn add(&self, of_weight: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
-        let geometry = self.geometry;
-        // Without activation the gradients of the sums are those of the output.
-        let copied = self.slope != 1.0 || self.wants_bias;
-        let mut before = Buffer::stale(if copied { geometry.image_out() } else { 0 });
-        let images = self
-            .input
-            .chunks_exact(geometry.image_in())
-            .zip(self.output.chunks_exact(geometry.image_out()))
-            .zip(self.gradient.chunks_exact(geometry.image_out()));
-        for (index, ((image, output), gradient)) in images.enumerate() {
-            let before: &[f32] = if copied {
-                before_activation(output, gradient, self.slope, of_bias, &mut before);
-                &before
-            } else {
-                gradient
-            };
-            add_to_weight(geometry, image, before, of_weight);
-            if !of_input.is_empty() {
-                let size = geometry.image_in();
-                let of_image = &mut of_input[index * size..(index + 1) * size];
-                of_image.fill(0.0);
-                add_to_image(geometry, self.transposed, before, of_image);
-            }
+/// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and writes those of the input
+/// unless that is empty.
+pub(crate) fn add_gradients(
+    part: &Part<'_>,
+    of_weight: &mut [f32],
+    of_bias: &mut [f32],
+    of_input: &mut [f32],
+) {
+    let geometry = part.geometry;
+    // Without activation the gradients of the sums are those of the output.
+    let copied = part.slope != 1.0 || part.wants_bias;
+    let mut before = Buffer::stale(if copied { geometry.image_out() } else { 0 });
+    let images = part
+        .input
+        .chunks_exact(geometry.image_in())
+        .zip(part.output.chunks_exact(geometry.image_out()))
+        .zip(part.gradient.chunks_exact(geometry.image_out()));
+    for (index, ((image, output), gradient)) in images.enumerate() {
+        let before: &[f32] = if copied {
+            before_activation(output, gradient, part.slope, of_bias, &mut before);
+            &before
+        } else {
+            gradient
+        };
+        add_to_weight(geometry, image, before, of_weight);
+        if !of_input.is_empty() {
+            let size = geometry.image_in();
+            let of_image = &mut of_input[index * size..(index + 1) * size];
+            of_image.fill(0.0);
+            add_to_image(geometry, part.transposed, before, of_image);
         }
     }
 }

@@ -7,6 +7,7 @@ mod kernels;
 mod tiles;
 
 use crate::cpu::buffer::Buffer;
+use crate::cpu::convolution::Part;
 use crate::cpu::geometry::Geometry;
 use crate::cpu::product::{Finish, Left, Product, Right};
 use crate::cpu::transforms::{KEPT, POINTS, SIDE};
@@ -201,149 +202,142 @@ fn gather(
     }
 }
 
-/// What the gradients of some images are computed from.
-pub(crate) struct Backward<'a> {
-    pub(crate) geometry: &'a Geometry,
-    /// `[images, height, width, channels_in]`.
-    pub(crate) input: &'a [f32],
-    /// `[36, channels_out, channels_in]`.
-    pub(crate) transposed: &'a [f32],
-    /// `[images, height, width, channels_out]`.
-    pub(crate) output: &'a [f32],
-    /// Of the output.
-    pub(crate) gradient: &'a [f32],
-    pub(crate) slope: f32,
+/// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and writes those of the input
+/// unless that is empty.
+pub(crate) fn add_gradients(
+    part: &Part<'_>,
+    of_points: &mut [f32],
+    of_bias: &mut [f32],
+    of_input: &mut [f32],
+) {
+    let grid = TileRows::new(part.geometry);
+    let images = part.output.len() / part.geometry.image_out();
+    let rows = images * grid.per_image;
+    for first in (0..rows).step_by(grid.block) {
+        let block = first..rows.min(first + grid.block);
+        add_block(part, &grid, block, of_points, of_bias, of_input);
+    }
 }
 
-impl Backward<'_> {
-    /// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and writes those of the
-    /// input unless that is empty.
-    pub(crate) fn add(&self, of_points: &mut [f32], of_bias: &mut [f32], of_input: &mut [f32]) {
-        let geometry = self.geometry;
-        let grid = TileRows::new(geometry);
-        let images = self.output.len() / geometry.image_out();
-        let rows = images * grid.per_image;
-        for first in (0..rows).step_by(grid.block) {
-            let block = first..rows.min(first + grid.block);
-            self.add_block(&grid, block, of_points, of_bias, of_input);
+fn add_block(
+    part: &Part<'_>,
+    grid: &TileRows,
+    rows: Range<usize>,
+    of_points: &mut [f32],
+    of_bias: &mut [f32],
+    of_input: &mut [f32],
+) {
+    let geometry = part.geometry;
+    let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
+    let tiles = rows.len() * grid.tiles;
+    let (seen_at, sums_at) = (
+        Points {
+            tiles,
+            channels: channels_in,
+        },
+        Points {
+            tiles,
+            channels: channels_out,
+        },
+    );
+    let mut seen = Buffer::stale(seen_at.floats());
+    let mut sums = Buffer::stale(sums_at.floats());
+    gather(geometry, grid, rows.clone(), part.input, &mut seen);
+    for (index, row) in rows.clone().enumerate() {
+        let kept = grid.out_rows(geometry, row);
+        let line = geometry.width() * channels_out;
+        let from = row / grid.per_image * geometry.image_out() + kept.start * line;
+        let place = from..from + kept.len() * line;
+        Spread {
+            output: &part.output[place.clone()],
+            gradient: &part.gradient[place],
+            slope: part.slope,
+            rows: kept.len(),
+            columns: geometry.width(),
+            bias: of_bias,
+            points: &mut sums,
+            place: sums_at,
+            first: index * grid.tiles,
+            tiles: grid.tiles,
         }
+        .run();
     }
-
-    fn add_block(
-        &self,
-        grid: &TileRows,
-        rows: Range<usize>,
-        of_points: &mut [f32],
-        of_bias: &mut [f32],
-        of_input: &mut [f32],
-    ) {
-        let geometry = self.geometry;
-        let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
-        let tiles = rows.len() * grid.tiles;
-        let (seen_at, sums_at) = (
-            Points {
-                tiles,
-                channels: channels_in,
+    for point in 0..POINTS {
+        let seen = &mut seen[point * seen_at.plane()..][..tiles * channels_in];
+        let sums = &sums[point * sums_at.plane()..];
+        Product {
+            size: [channels_in, channels_out],
+            counts: [1, tiles],
+            left: Left {
+                values: seen,
+                row: 1,
+                steps: [0, channels_in],
             },
-            Points {
-                tiles,
-                channels: channels_out,
+            right: Right {
+                values: sums,
+                steps: [0, channels_out],
             },
-        );
-        let mut seen = Buffer::stale(seen_at.floats());
-        let mut sums = Buffer::stale(sums_at.floats());
-        gather(geometry, grid, rows.clone(), self.input, &mut seen);
-        for (index, row) in rows.clone().enumerate() {
-            let kept = grid.out_rows(geometry, row);
-            let line = geometry.width() * channels_out;
-            let from = row / grid.per_image * geometry.image_out() + kept.start * line;
-            let part = from..from + kept.len() * line;
-            Spread {
-                output: &self.output[part.clone()],
-                gradient: &self.gradient[part],
-                slope: self.slope,
-                rows: kept.len(),
-                columns: geometry.width(),
-                bias: of_bias,
-                points: &mut sums,
-                place: sums_at,
-                first: index * grid.tiles,
-                tiles: grid.tiles,
-            }
-            .run();
+            output: &mut of_points[point * channels_in * channels_out..],
+            output_row: channels_out,
+            finish: Finish::Added,
         }
-        for point in 0..POINTS {
-            let seen = &mut seen[point * seen_at.plane()..][..tiles * channels_in];
-            let sums = &sums[point * sums_at.plane()..];
-            Product {
-                size: [channels_in, channels_out],
-                counts: [1, tiles],
-                left: Left {
-                    values: seen,
-                    row: 1,
-                    steps: [0, channels_in],
-                },
-                right: Right {
-                    values: sums,
-                    steps: [0, channels_out],
-                },
-                output: &mut of_points[point * channels_in * channels_out..],
-                output_row: channels_out,
-                finish: Finish::Added,
-            }
-            .compute();
-            if of_input.is_empty() {
-                continue;
-            }
-            Product {
-                size: [tiles, channels_in],
-                counts: [1, channels_out],
-                left: Left {
-                    values: sums,
-                    row: channels_out,
-                    steps: [0, 1],
-                },
-                right: Right {
-                    values: &self.transposed[point * channels_in * channels_out..],
-                    steps: [0, channels_in],
-                },
-                output: seen,
-                output_row: channels_in,
-                finish: Finish::Stored,
-            }
-            .compute();
+        .compute();
+        if of_input.is_empty() {
+            continue;
         }
-        if !of_input.is_empty() {
-            self.scatter(grid, rows, &seen, of_input);
+        Product {
+            size: [tiles, channels_in],
+            counts: [1, channels_out],
+            left: Left {
+                values: sums,
+                row: channels_out,
+                steps: [0, 1],
+            },
+            right: Right {
+                values: &part.transposed[point * channels_in * channels_out..],
+                steps: [0, channels_in],
+            },
+            output: seen,
+            output_row: channels_in,
+            finish: Finish::Stored,
         }
+        .compute();
     }
+    if !of_input.is_empty() {
+        scatter(geometry, grid, rows, &seen, of_input);
+    }
+}
 
-    /// The transpose of [`gather`], added to the images.
-    fn scatter(&self, grid: &TileRows, rows: Range<usize>, points: &[f32], of_input: &mut [f32]) {
-        let geometry = self.geometry;
-        let channels = geometry.channels_in;
-        let place = Points {
-            tiles: rows.len() * grid.tiles,
-            channels,
-        };
-        let mut seen = Buffer::stale(grid.window(geometry, 0).floats(channels));
-        for (index, row) in rows.enumerate() {
-            let window = grid.window(geometry, row);
-            Scatter {
-                points,
-                place,
-                first: index * grid.tiles,
-                tiles: grid.tiles,
-                window: &mut seen,
-                columns: window.columns,
-            }
-            .run();
-            let image = row / grid.per_image * geometry.image_in();
-            let image = &mut of_input[image..image + geometry.image_in()];
-            if row.is_multiple_of(grid.per_image) {
-                image.fill(0.0);
-            }
-            add_window(geometry, window, &seen, image);
+/// The transpose of [`gather`]: a tile row's values are added to the images, which begin with zeros.
+fn scatter(
+    geometry: &Geometry,
+    grid: &TileRows,
+    rows: Range<usize>,
+    points: &[f32],
+    of_input: &mut [f32],
+) {
+    let channels = geometry.channels_in;
+    let place = Points {
+        tiles: rows.len() * grid.tiles,
+        channels,
+    };
+    let mut seen = Buffer::stale(grid.window(geometry, 0).floats(channels));
+    for (index, row) in rows.enumerate() {
+        let window = grid.window(geometry, row);
+        Scatter {
+            points,
+            place,
+            first: index * grid.tiles,
+            tiles: grid.tiles,
+            window: &mut seen,
+            columns: window.columns,
         }
+        .run();
+        let image = row / grid.per_image * geometry.image_in();
+        let image = &mut of_input[image..image + geometry.image_in()];
+        if row.is_multiple_of(grid.per_image) {
+            image.fill(0.0);
+        }
+        add_window(geometry, window, &seen, image);
     }
 }
