@@ -4,7 +4,10 @@ mod train;
 
 use crate::Outcome;
 use crate::args::{BenchArgs, BenchCommand};
-use anyhow::Result;
+use crate::terminal::print;
+use anyhow::{Result, bail};
+use serde::Serialize;
+use std::time::Duration;
 
 /// Measures what was asked for.
 pub(crate) fn run(args: &BenchArgs) -> Result<Outcome> {
@@ -12,6 +15,32 @@ pub(crate) fn run(args: &BenchArgs) -> Result<Outcome> {
         BenchCommand::Render(args) => render::run(args),
         BenchCommand::Train(args) => train::run(args),
     }
+}
+
+/// How long each case takes, at least.
+fn least(seconds: f64) -> Result<Duration> {
+    if !(0.01..=3600.0).contains(&seconds) {
+        bail!("--seconds: {seconds} found, 0.01 to 3600 expected");
+    }
+    Ok(Duration::from_secs_f64(seconds))
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, Into::into)
+}
+
+/// Prints a finished bench as JSON or as text.
+fn print_report<R: Serialize>(
+    report: &R,
+    json: bool,
+    to_text: impl Fn(&R) -> String,
+) -> Result<Outcome> {
+    print(&if json {
+        serde_json::to_string_pretty(report)? + "\n"
+    } else {
+        to_text(report)
+    })?;
+    Ok(Outcome::Done)
 }
 
 /// Most memory the process held so far, where the system tells (Linux: proc(5), `VmHWM`).

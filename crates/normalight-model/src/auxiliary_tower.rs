@@ -1,4 +1,4 @@
-use crate::layers::{convolution, convolve, convolve_doubled, convolve_row};
+use crate::layers::{convolution, convolve, convolve_doubled, convolve_row, unit_length};
 use crate::{NormalArchitecture, NormalBody};
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
@@ -39,8 +39,6 @@ impl AuxiliaryTower {
     pub fn forward(&self, fused: Tensor<4>) -> Tensor<4> {
         let grown = convolve_doubled(&self.up, convolve_row(&self.fused, fused));
         let raw = convolve(&self.output, grown);
-        // The small term keeps the gradient finite where the tower says nothing.
-        let length = (raw.clone().square().sum_dim(3) + 1e-8).sqrt();
-        raw / length
+        unit_length(raw)
     }
 }

@@ -83,6 +83,13 @@ fn convolve_as(conv: &Conv2d, input: Tensor<4>, upsampling: usize, slope: f32) -
     normalight_kernels::convolution(input, conv.weight.val(), bias(conv), how)
 }
 
+/// Vectors along the channels at unit length.
+pub(crate) fn unit_length(raw: Tensor<4>) -> Tensor<4> {
+    // The small term keeps the gradient finite where a network says nothing.
+    let length = (raw.clone().square().sum_dim(3) + 1e-8).sqrt();
+    raw / length
+}
+
 /// A layer's bias; zeros where it has none.
 fn bias(conv: &Conv2d) -> Tensor<1> {
     match &conv.bias {

@@ -1,5 +1,7 @@
 use crate::cell::{CellLayer, CellRow, forward_row};
-use crate::layers::{LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row};
+use crate::layers::{
+    LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row, unit_length,
+};
 use crate::{CellNormal, ModelError, NormalArchitecture, NormalBody, PlainNormal, Upsampling};
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
@@ -140,9 +142,7 @@ impl NormalNetwork {
                 convolve(&cells.output, cells.regressor_up.forward(row))
             }
         };
-        // The small term keeps the gradient finite where the network says nothing.
-        let length = (raw.clone().square().sum_dim(3) + 1e-8).sqrt();
-        raw / length
+        unit_length(raw)
     }
 
     /// The same function with every normalisation layer folded into its convolution.

@@ -11,28 +11,13 @@ pub(crate) struct Batch {
     pub(crate) size: usize,
     /// Input channels.
     pub(crate) channels: usize,
-    /// `[samples * images, channels, size, size]` while samples are added, then `[samples * images, size, size, channels]`.
+    /// `[samples * images, size, size, channels]`.
     pub(crate) input: Vec<f32>,
     /// What the task compares with; see the tasks.
     pub(crate) target: Vec<f32>,
 }
 
 impl Batch {
-    /// Turns the finished input to channels last, as the networks want it.
-    pub(crate) fn finish(&mut self) {
-        let area = self.size * self.size;
-        let mut turned = vec![0.0; self.input.len()];
-        let images = turned.chunks_exact_mut(self.channels * area);
-        for (out, planes) in images.zip(self.input.chunks_exact(self.channels * area)) {
-            for (channel, plane) in planes.chunks_exact(area).enumerate() {
-                for (pixel, value) in out.chunks_exact_mut(self.channels).zip(plane) {
-                    pixel[channel] = *value;
-                }
-            }
-        }
-        self.input = turned;
-    }
-
     /// # Shapes
     /// `[samples * images, size, size, channels]`
     pub(crate) fn input(&self, device: &Device) -> Tensor<4> {

@@ -55,11 +55,11 @@ impl Task for LightTask {
         let mean = sum / (3 * inside.max(1) * sample.lights.len()) as f32;
         for image in sample.images.chunks_exact(3 * area) {
             let factor = 1.0 / mean.max(1e-12);
-            batch.input.extend(image.iter().map(|value| value * factor));
-            let mask = sample.mask.iter();
-            batch
-                .input
-                .extend(mask.map(|&inside| f32::from(u8::from(inside))));
+            for (pixel, &inside) in sample.mask.iter().enumerate() {
+                let colour = [0, 1, 2].map(|channel| image[channel * area + pixel] * factor);
+                batch.input.extend(colour);
+                batch.input.push(f32::from(u8::from(inside)));
+            }
         }
         let bins = &recipe.light.architecture.bins;
         let brightness = sample.lights.iter().map(Light::mean_intensity);

@@ -78,15 +78,16 @@ impl Task for NormalTask {
             .collect();
         for (image, light) in sample.images.chunks_exact(3 * area).zip(&lights) {
             let factor = 1.0 / light.mean_intensity();
-            let scaled = image.iter().zip(&scale);
-            batch
-                .input
-                .extend(scaled.map(|(value, scale)| value * factor * scale));
-            for component in light.direction.to_array() {
-                batch.input.extend(std::iter::repeat_n(component, area));
-            }
-            if recipe.normal.architecture.mask_channel {
-                batch.input.extend(mask_plane(sample));
+            for (pixel, &inside) in sample.mask.iter().enumerate() {
+                let colour = [0, 1, 2].map(|channel| {
+                    let place = channel * area + pixel;
+                    image[place] * factor * scale[place]
+                });
+                batch.input.extend(colour);
+                batch.input.extend(light.direction.to_array());
+                if recipe.normal.architecture.mask_channel {
+                    batch.input.push(f32::from(u8::from(inside)));
+                }
             }
         }
         for axis in 0..3 {

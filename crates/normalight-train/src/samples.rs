@@ -125,7 +125,6 @@ impl<T: Task> BatchMaker for SampleMaker<T> {
             T::append(&recipe, &sample, predicted.as_deref(), seed, &mut batch);
             batch.samples += 1;
         }
-        batch.finish();
         Ok(batch)
     }
 }

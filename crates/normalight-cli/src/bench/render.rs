@@ -1,8 +1,7 @@
 use crate::Outcome;
 use crate::args::BenchRenderArgs;
-use crate::terminal::print;
 use crate::{interrupt, scenes};
-use anyhow::{Result, bail};
+use anyhow::Result;
 use normalight_synth::Renderer;
 use serde::Serialize;
 use std::hint::black_box;
@@ -39,15 +38,12 @@ struct Case {
 
 /// Runs both cases.
 pub(crate) fn run(args: &BenchRenderArgs) -> Result<Outcome> {
-    if !(args.seconds >= 0.01 && args.seconds <= 3600.0) {
-        bail!("--seconds: {} found, 0.01 to 3600 expected", args.seconds);
-    }
+    let least = super::least(args.seconds)?;
     let renderer = scenes::renderer(&args.recipe, &args.library)?;
     let threads = match args.threads {
         Some(threads) => threads as usize,
-        None => std::thread::available_parallelism().map_or(1, Into::into),
+        None => super::cores(),
     };
-    let least = Duration::from_secs_f64(args.seconds);
     let mut report = Report {
         version: env!("CARGO_PKG_VERSION"),
         recipe: args.recipe.clone(),
@@ -67,12 +63,7 @@ pub(crate) fn run(args: &BenchRenderArgs) -> Result<Outcome> {
         }
     }
     report.peak_memory = super::peak_memory();
-    print(&if args.json {
-        serde_json::to_string_pretty(&report)? + "\n"
-    } else {
-        to_text(&report)
-    })?;
-    Ok(Outcome::Done)
+    super::print_report(&report, args.json, to_text)
 }
 
 /// One case: crops of scenes, or whole scenes when `crops` is 0.

@@ -5,8 +5,7 @@ mod operations;
 use crate::Outcome;
 use crate::args::BenchTrainArgs;
 use crate::interrupt;
-use crate::terminal::print;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use burn::tensor::{Device, Tensor};
 use networks::Case;
 use operations::OperationCase;
@@ -36,16 +35,13 @@ struct Matmul {
 
 /// Runs everything for one thread and for all.
 pub(crate) fn run(args: &BenchTrainArgs) -> Result<Outcome> {
-    if !(args.seconds >= 0.01 && args.seconds <= 3600.0) {
-        bail!("--seconds: {} found, 0.01 to 3600 expected", args.seconds);
-    }
-    let cores = std::thread::available_parallelism().map_or(1, Into::into);
+    let least = super::least(args.seconds)?;
+    let cores = super::cores();
     let mut threads = match args.threads {
         Some(threads) => vec![threads as usize],
         None => vec![1, cores],
     };
     threads.dedup();
-    let least = Duration::from_secs_f64(args.seconds);
     let data_ms = networks::data_ms()?;
     let mut report = Report {
         version: env!("CARGO_PKG_VERSION"),
@@ -73,12 +69,7 @@ pub(crate) fn run(args: &BenchTrainArgs) -> Result<Outcome> {
         }
     }
     report.peak_memory = super::peak_memory();
-    print(&if args.json {
-        serde_json::to_string_pretty(&report)? + "\n"
-    } else {
-        to_text(&report)
-    })?;
-    Ok(Outcome::Done)
+    super::print_report(&report, args.json, to_text)
 }
 
 /// All cases on the threads of this pool; false when the user stops it.

@@ -4,15 +4,10 @@
 //! channels there are. For stride 2 the columns of the copied rows are sorted by parity first; then neighbouring outputs
 //! see neighbouring inputs again.
 use crate::cpu::buffer::Buffer;
-use crate::cpu::vectors::{Lanes, run};
+use crate::cpu::convolution::PARTS;
+use crate::cpu::vectors::{Lanes, WIDEST, period, run};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
-
-/// Parts that a batch's gradients are summed in.
-const PARTS: usize = 8;
-
-/// Floats of the widest vectors.
-const VECTOR: usize = 16;
 
 /// The sizes of one depthwise convolution with "same" padding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,13 +45,8 @@ impl Depthwise {
         self.size * self.size
     }
 
-    /// Floats after which the repeated weights begin again at the start of a vector.
     fn period(&self) -> usize {
-        let mut period = self.channels;
-        while !period.is_multiple_of(VECTOR) {
-            period += self.channels;
-        }
-        period
+        period(self.channels)
     }
 
     /// Columns of one parity in a copied row.
@@ -289,7 +279,7 @@ impl<'a> Row<'a> {
             assert!(
                 value + self.out.len() <= self.values.len()
                     && weight + self.period <= self.weight.len()
-                    && self.period.is_multiple_of(VECTOR),
+                    && self.period.is_multiple_of(WIDEST),
                 "a row reaches beyond its image"
             );
         }

@@ -50,15 +50,8 @@ pub(crate) fn forward(
         Product {
             size: [rows.len() * width, channels_out],
             counts: [1, channels_in],
-            left: Left {
-                values: &image[rows.start * width * channels_in..],
-                row: channels_in,
-                steps: [0, 1],
-            },
-            right: Right {
-                values: weight,
-                steps: [0, channels_out],
-            },
+            left: Left::rows(&image[rows.start * width * channels_in..], channels_in),
+            right: Right::rows(weight, channels_out),
             output,
             output_row: channels_out,
             finish,
@@ -192,15 +185,8 @@ pub(crate) fn add_to_image(
         Product {
             size: [pixels, taps],
             counts: [1, channels_out],
-            left: Left {
-                values: before,
-                row: channels_out,
-                steps: [0, 1],
-            },
-            right: Right {
-                values: transposed,
-                steps: [0, taps],
-            },
+            left: Left::rows(before, channels_out),
+            right: Right::rows(transposed, taps),
             output,
             output_row: taps,
             finish: Finish::Stored,

@@ -1,13 +1,11 @@
 //! Batch normalisation of feature maps (Ioffe & Szegedy 2015): one pass over the values for the statistics, one for the
 //! result, forward and backward.
 use crate::cpu::buffer::Buffer;
+use crate::cpu::vectors::period;
 use rayon::prelude::*;
 
 /// Floats that are worked on together: a part of the first-level cache.
 const BLOCK: usize = 1 << 12;
-
-/// Vectors of channels are repeated up to a multiple of this many floats, so that narrow maps fill vectors, too.
-const VECTOR: usize = 16;
 
 /// Mean and variance of every channel over a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,15 +15,7 @@ pub(crate) struct Moments {
     pub(crate) variance: Vec<f32>,
 }
 
-/// Channels repeated until they fill vectors.
-fn period(channels: usize) -> usize {
-    let mut period = channels;
-    while !period.is_multiple_of(VECTOR) && period < VECTOR * channels {
-        period += channels;
-    }
-    period
-}
-
+/// Values of the channels, again and again.
 fn repeated(values: &[f32], period: usize) -> Vec<f32> {
     values.iter().copied().cycle().take(period).collect()
 }

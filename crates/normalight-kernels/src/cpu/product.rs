@@ -21,6 +21,27 @@ pub(crate) struct Right<'a> {
     pub(crate) steps: [usize; 2],
 }
 
+impl<'a> Left<'a> {
+    /// Rows one after the other, `row` floats apart.
+    pub(crate) fn rows(values: &'a [f32], row: usize) -> Self {
+        Self {
+            values,
+            row,
+            steps: [0, 1],
+        }
+    }
+}
+
+impl<'a> Right<'a> {
+    /// Rows one after the other, `row` floats apart.
+    pub(crate) fn rows(values: &'a [f32], row: usize) -> Self {
+        Self {
+            values,
+            steps: [0, row],
+        }
+    }
+}
+
 /// What becomes of a finished sum.
 #[derive(Clone, Copy)]
 pub(crate) enum Finish<'a> {

@@ -17,6 +17,19 @@ pub(crate) fn run<T: WithSimd>(operation: T) -> T::Output {
     Arch::new().dispatch(operation)
 }
 
+/// Floats of the widest vectors.
+pub(crate) const WIDEST: usize = 16;
+
+/// Floats after which values repeated every `channels` floats begin again at the start of a vector: rows of narrow
+/// feature maps fill vectors, too.
+pub(crate) fn period(channels: usize) -> usize {
+    let mut period = channels;
+    while !period.is_multiple_of(WIDEST) {
+        period += channels;
+    }
+    period
+}
+
 /// Loads and stores of whole vectors and of the rest of a row.
 ///
 /// Everything here is unsafe in the same way: the pointer must be good for the lanes in use.

@@ -135,15 +135,8 @@ pub(crate) fn forward(
         Product {
             size: [tiles, channels_out],
             counts: [1, channels_in],
-            left: Left {
-                values: &seen[point * seen_at.plane()..],
-                row: channels_in,
-                steps: [0, 1],
-            },
-            right: Right {
-                values: &points[point * channels_in * channels_out..],
-                steps: [0, channels_out],
-            },
+            left: Left::rows(&seen[point * seen_at.plane()..], channels_in),
+            right: Right::rows(&points[point * channels_in * channels_out..], channels_out),
             output: &mut sums[point * sums_at.plane()..],
             output_row: channels_out,
             finish: Finish::Stored,
@@ -273,10 +266,7 @@ fn add_block(
                 row: 1,
                 steps: [0, channels_in],
             },
-            right: Right {
-                values: sums,
-                steps: [0, channels_out],
-            },
+            right: Right::rows(sums, channels_out),
             output: &mut of_points[point * channels_in * channels_out..],
             output_row: channels_out,
             finish: Finish::Added,
@@ -288,15 +278,11 @@ fn add_block(
         Product {
             size: [tiles, channels_in],
             counts: [1, channels_out],
-            left: Left {
-                values: sums,
-                row: channels_out,
-                steps: [0, 1],
-            },
-            right: Right {
-                values: &part.transposed[point * channels_in * channels_out..],
-                steps: [0, channels_in],
-            },
+            left: Left::rows(sums, channels_out),
+            right: Right::rows(
+                &part.transposed[point * channels_in * channels_out..],
+                channels_in,
+            ),
             output: seen,
             output_row: channels_in,
             finish: Finish::Stored,
