@@ -248,6 +248,55 @@ pub(crate) enum BenchCommand {
     /// Forward and backward, the optimiser and the data apart, for four networks on batches of 16 samples of ten 32x32
     /// images. Nothing else should run meanwhile.
     Train(BenchTrainArgs),
+    /// How fast a relaxed network is searched, on one core and on all.
+    ///
+    /// A step takes a batch from either half of the data: first the architecture moves, then the weights.
+    Search(BenchSearchArgs),
+    /// How long every operation of a search space takes where a recipe's cells stand.
+    ///
+    /// The file is a table for the `budget` of a search in time.
+    Ops(BenchOpsArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchSearchArgs {
+    /// `laptop`, `paper` or a TOML file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "laptop")]
+    pub(crate) recipe: String,
+    /// Only this network; default: both, or that of the file.
+    #[arg(long, value_enum)]
+    pub(crate) network: Option<NetworkChoice>,
+    /// Seconds for each case, at least.
+    #[arg(long, value_name = "S", default_value_t = 3.0)]
+    pub(crate) seconds: f64,
+    /// Threads; default: one, then one for each core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) threads: Option<u32>,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchOpsArgs {
+    /// Which network.
+    #[arg(value_enum)]
+    pub(crate) network: NetworkChoice,
+    /// `laptop`, `paper` or a TOML file: says which operations, widths and sizes are measured.
+    #[arg(long, value_name = "NAME|FILE", default_value = "laptop")]
+    pub(crate) recipe: String,
+    /// File for the table, JSON.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Seconds for each case, at least.
+    #[arg(long, value_name = "S", default_value_t = 0.3)]
+    pub(crate) seconds: f64,
+    /// Threads of the CPU; default: one for each core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) threads: Option<u32>,
+    /// Where to compute.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) device: DeviceChoice,
 }
 
 #[derive(Debug, Args)]

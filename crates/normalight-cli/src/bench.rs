@@ -1,19 +1,24 @@
 //! `normalight bench`.
+mod operation_times;
 mod render;
+mod search;
 mod train;
 
 use crate::Outcome;
 use crate::args::{BenchArgs, BenchCommand};
+use crate::interrupt;
 use crate::terminal::print;
 use anyhow::{Result, bail};
 use serde::Serialize;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Measures what was asked for.
 pub(crate) fn run(args: &BenchArgs) -> Result<Outcome> {
     match &args.what {
         BenchCommand::Render(args) => render::run(args),
         BenchCommand::Train(args) => train::run(args),
+        BenchCommand::Search(args) => search::run(args),
+        BenchCommand::Ops(args) => operation_times::run(args),
     }
 }
 
@@ -49,4 +54,29 @@ fn peak_memory() -> Option<u64> {
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(kilobytes * 1024)
+}
+
+/// Medians of what `work` measures, repeated for at least that long and at least five times after two warm-ups.
+fn median_seconds<const N: usize>(
+    least: Duration,
+    mut work: impl FnMut() -> [Duration; N],
+) -> [f64; N] {
+    const FEWEST: usize = 5;
+    for _ in 0..2 {
+        work();
+    }
+    let mut times: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
+    let start = Instant::now();
+    while start.elapsed() < least || times.iter().any(|times| times.len() < FEWEST) {
+        for (times, time) in times.iter_mut().zip(work()) {
+            times.push(time.as_secs_f64());
+        }
+        if interrupt::asked() {
+            break;
+        }
+    }
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    })
 }

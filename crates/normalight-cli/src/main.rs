@@ -11,6 +11,7 @@ mod outputs;
 mod progress;
 mod render;
 mod scenes;
+mod search_recipe;
 mod settings;
 mod table;
 mod terminal;

@@ -45,8 +45,8 @@ pub struct PlainLight {
     pub hidden: usize,
 }
 
-/// The paper's light backbone: two convolutions, cells N R N R N, max over images, two
-/// convolutions, cells N R, two convolutions, two fully connected layers.
+/// The paper's light backbone: two convolutions, cells N R N R N (N R N with one reduction), max
+/// over images, two convolutions, cells N R, two convolutions, two fully connected layers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellLight {
@@ -54,6 +54,9 @@ pub struct CellLight {
     pub width: usize,
     /// Strides of the two stem convolutions.
     pub stem_strides: [usize; 2],
+    /// Reduction cells among those of the features, each followed by a normal cell; 2 as published.
+    #[serde(default = "two")]
+    pub reductions: usize,
     /// Units of the hidden fully connected layer.
     pub hidden: usize,
     /// The cells.
@@ -101,22 +104,39 @@ pub enum Upsampling {
     Nearest,
 }
 
-/// The paper's normal backbone: two convolutions, cells N R N R N, up, convolution, max over
-/// images, one or two convolutions, cells N N N, up, convolution, unit length.
+/// The paper's normal backbone: two convolutions, cells N R N R N (N R N with one reduction), up,
+/// convolution, max over images, one or two convolutions, cells N N N, up, convolution, unit length.
+///
+/// Features leave at half of the input's size: the first layer after the cells doubles the size if
+/// they leave a quarter or less, the next doubles it again if they leave an eighth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellNormal {
     /// Base width C: channels of each node in the first cells.
     pub width: usize,
-    /// Strides of the two stem convolutions: `[1, 1]` as published, `[1, 2]` for speed. With the
-    /// second, the convolution after the first upsampling doubles the size again.
+    /// Strides of the two stem convolutions: `[1, 1]` as published, `[1, 2]` for speed.
     pub stem_strides: [usize; 2],
+    /// Reduction cells among those of the features, each followed by a normal cell; 2 as published.
+    #[serde(default = "two")]
+    pub reductions: usize,
     /// How feature maps grow.
     pub upsampling: Upsampling,
     /// Convolutions between the max over images and the regressor cells: 2 as published, or 1.
     pub fused_convolutions: usize,
     /// The cells.
     pub genotype: NormalGenotype,
+}
+
+fn two() -> usize {
+    2
+}
+
+impl CellNormal {
+    /// How often the size must double between the feature cells and the maximum over the images: 0 to 2.
+    pub(crate) fn doublings(&self) -> usize {
+        let halvings = self.reductions + usize::from(self.stem_strides[1] == 2);
+        halvings.saturating_sub(1)
+    }
 }
 
 impl LightArchitecture {
@@ -169,6 +189,7 @@ impl LightArchitecture {
                 for stride in cells.stem_strides {
                     within("stem stride", stride, 1, 2)?;
                 }
+                within("reductions", cells.reductions, 0, 2)?;
                 cells.genotype.validate()
             }
         }
@@ -209,6 +230,9 @@ impl NormalArchitecture {
                 within("fused_convolutions", cells.fused_convolutions, 1, 2)?;
                 within("first stem stride", cells.stem_strides[0], 1, 1)?;
                 within("second stem stride", cells.stem_strides[1], 1, 2)?;
+                // Features leave at half of the input's size.
+                let fewest = 2 - cells.stem_strides[1];
+                within("reductions", cells.reductions, fewest, 2)?;
                 cells.genotype.validate()
             }
         }

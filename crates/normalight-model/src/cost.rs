@@ -1,5 +1,6 @@
 //! Closed-form parameter and operation counts, written independently of the layers so that tests can compare.
 
+use crate::placement::{CellPlacement, light_placements, normal_placements};
 use crate::{
     Cell, LightArchitecture, LightBody, NormalArchitecture, NormalBody, Operation, Upsampling,
 };
@@ -49,25 +50,18 @@ pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
             let genotype = &cells.genotype;
             let [first, second] = cells.stem_strides.map(|stride| stride * stride);
             let stem = area / (first * second);
-            let channels = genotype.feature_normal.nodes.len() * 4 * c;
-            let classifier = [
-                (&genotype.classifier_normal, false),
-                (&genotype.classifier_reduction, true),
-            ];
-            let after = genotype.classifier_reduction.nodes.len() * 2 * c;
+            let [features, classifier] = light_placements(cells, area);
+            let channels = last_channels(&features, &genotype.cells());
+            let after = last_channels(&classifier, &genotype.cells());
             let stride: usize = cells.stem_strides.iter().product();
-            let side = (architecture.input_size / stride).div_ceil(16);
+            let side = (architecture.input_size / stride).div_ceil(4 << cells.reductions);
+            let fused = stem >> (2 * cells.reductions);
             conv(4, 2 * c, area / first)
                 + conv(2 * c, 3 * c, stem)
-                + feature_block(
-                    &genotype.feature_normal,
-                    &genotype.feature_reduction,
-                    c,
-                    stem,
-                )
-                + conv(2 * channels, 4 * c, stem / 16)
-                + conv(4 * c, 3 * c, stem / 16)
-                + cell_row(&classifier, c, stem / 16)
+                + cell_row(&features, &genotype.cells())
+                + conv(2 * channels, 4 * c, fused)
+                + conv(4 * c, 3 * c, fused)
+                + cell_row(&classifier, &genotype.cells())
                 + conv(after, 4 * c, side * side)
                 + conv(4 * c, 4 * c, side * side)
                 + dense(4 * c * side * side, cells.hidden)
@@ -111,24 +105,26 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
                 },
                 Upsampling::Nearest => conv(from, to, area),
             };
-            let channels = genotype.feature_normal.nodes.len() * 4 * c;
-            let features = conv(inputs, 2 * c, area / first)
+            let [features, regressor] = normal_placements(cells, area);
+            let channels = last_channels(&features, &genotype.cells());
+            let half = area / 4;
+            let first_up = match cells.doublings() {
+                0 => conv(channels, 4 * c, half),
+                1 => up(channels, 4 * c, half),
+                // The next layer doubles the size once more.
+                _ => up(channels, 4 * c, half / 4),
+            };
+            let images = conv(inputs, 2 * c, area / first)
                 + conv(2 * c, 3 * c, stem)
-                + feature_block(
-                    &genotype.feature_normal,
-                    &genotype.feature_reduction,
-                    c,
-                    stem,
-                )
-                + up(channels, 4 * c, stem / 4)
-                + conv(4 * c, 4 * c, area / 4);
-            let regressor = &genotype.regressor_normal;
-            let fused = conv(4 * c, 4 * c, area / 4) * (cells.fused_convolutions - 1)
-                + conv(4 * c, 3 * c, area / 4)
-                + cell_row(&[(regressor, false); 3], c, area / 4)
-                + up(regressor.nodes.len() * c, 2 * c, area)
+                + cell_row(&features, &genotype.cells())
+                + first_up
+                + conv(4 * c, 4 * c, half);
+            let fused = conv(4 * c, 4 * c, half) * (cells.fused_convolutions - 1)
+                + conv(4 * c, 3 * c, half)
+                + cell_row(&regressor, &genotype.cells())
+                + up(last_channels(&regressor, &genotype.cells()), 2 * c, area)
                 + conv(2 * c, 3, area);
-            (features, fused)
+            (images, fused)
         }
     };
     NetworkCost {
@@ -138,11 +134,13 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
     }
 }
 
-/// Of some layers.
+/// What some layers cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Cost {
-    parameters: usize,
-    multiply_adds: u64,
+pub struct Cost {
+    /// Trainable parameters, batch norm included.
+    pub parameters: usize,
+    /// Multiply-adds of convolutions and fully connected layers.
+    pub multiply_adds: u64,
 }
 
 impl Add for Cost {
@@ -173,40 +171,37 @@ impl Sum for Cost {
     }
 }
 
-/// The cells N R N R N on a stem of 3C channels.
-fn feature_block(normal: &Cell, reduction: &Cell, width: usize, area: usize) -> Cost {
-    let cells = [
-        (normal, false),
-        (reduction, true),
-        (normal, false),
-        (reduction, true),
-        (normal, false),
-    ];
-    cell_row(&cells, width, area)
+/// Channels that a row of cells leaves.
+fn last_channels(row: &[CellPlacement], cells: &[&Cell]) -> usize {
+    row.last()
+        .map_or(0, |last| cells[last.cell].nodes.len() * last.width)
 }
 
-/// A row of cells on a stem of 3C channels and that many pixels.
-fn cell_row(cells: &[(&Cell, bool)], width: usize, area: usize) -> Cost {
-    let (mut width, mut area) = (width, area);
-    let (mut before_last, mut last) = (3 * width, 3 * width);
+/// A row of cells on a stem of three times their first width.
+fn cell_row(row: &[CellPlacement], cells: &[&Cell]) -> Cost {
+    let stem = row.first().map_or(0, |first| 3 * first.width);
+    let (mut before_last, mut last) = (stem, stem);
     let mut total = Cost::default();
-    for &(cell, is_reduction) in cells {
+    for place in row {
+        let nodes = &cells[place.cell].nodes;
         // Both preprocessings, at the size that comes in: a 1x1 convolution (or two half ones).
-        if is_reduction {
-            width *= 2;
-        }
-        total = total + pointwise(before_last, width, area) + pointwise(last, width, area);
-        if is_reduction {
-            area /= 4;
-        }
-        let edges = cell.nodes.iter().flatten().map(|edge| {
-            let strided = is_reduction && edge.from < 2;
-            operation(edge.operation, width, strided, area)
-        });
+        let area = place.input_area();
+        total = total + pointwise(before_last, place.width, area);
+        total = total + pointwise(last, place.width, area);
+        let edges = nodes
+            .iter()
+            .flatten()
+            .map(|edge| operation_cost(edge.operation, place, edge.from));
         total = total + edges.sum();
-        (before_last, last) = (last, cell.nodes.len() * width);
+        (before_last, last) = (last, nodes.len() * place.width);
     }
     total
+}
+
+/// What an operation costs on an edge from `from` of a cell that stands there.
+pub fn operation_cost(operation: Operation, place: &CellPlacement, from: usize) -> Cost {
+    let strided = place.reduces && from < 2;
+    self::operation(operation, place.width, strided, place.area)
 }
 
 fn operation(operation: Operation, width: usize, strided: bool, area: usize) -> Cost {
@@ -221,6 +216,10 @@ fn operation(operation: Operation, width: usize, strided: bool, area: usize) -> 
         Operation::Separable1 => separable(1),
         Operation::Separable3 => separable(3),
         Operation::Separable5 => separable(5),
+        Operation::Convolution3 => Cost {
+            parameters: 9 * width * width + 2 * width,
+            multiply_adds: (9 * width * width * area) as u64,
+        },
         Operation::Skip if strided => pointwise(width, width, area),
         Operation::Skip | Operation::Zero => Cost::default(),
     }
@@ -252,7 +251,7 @@ fn dense(from: usize, to: usize) -> Cost {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CellNormal, PlainNormal, paper_genotypes};
+    use crate::{CellLight, CellNormal, PlainNormal, paper_genotypes};
 
     #[test]
     fn published_and_measured_counts() {
@@ -276,6 +275,7 @@ mod tests {
                 body: NormalBody::Cells(CellNormal {
                     width,
                     stem_strides: [1, 2],
+                    reductions: 2,
                     upsampling: Upsampling::Nearest,
                     fused_convolutions: 1,
                     genotype: paper.normal.clone().unwrap(),
@@ -294,17 +294,27 @@ mod tests {
         for (width, features, classifier, normal_features, regressor) in
             [(16, 196, 21, 215, 12), (32, 726, 73, 786, 41)]
         {
-            let count = feature_block(&light.feature_normal, &light.feature_reduction, width, 0);
-            assert_eq!(thousands(count.parameters), features);
-            let cells = [
-                (&light.classifier_normal, false),
-                (&light.classifier_reduction, true),
-            ];
-            assert_eq!(thousands(cell_row(&cells, width, 0).parameters), classifier);
-            let count = feature_block(&normal.feature_normal, &normal.feature_reduction, width, 0);
-            assert_eq!(thousands(count.parameters), normal_features);
-            let cells = [(&normal.regressor_normal, false); 3];
-            assert_eq!(thousands(cell_row(&cells, width, 0).parameters), regressor);
+            let cells = CellLight {
+                width,
+                stem_strides: [1, 1],
+                reductions: 2,
+                hidden: 1,
+                genotype: light.clone(),
+            };
+            let rows = light_placements(&cells, 0).map(|row| cell_row(&row, &light.cells()));
+            let count = rows.map(|row| thousands(row.parameters));
+            assert_eq!(count, [features, classifier]);
+            let cells = CellNormal {
+                width,
+                stem_strides: [1, 1],
+                reductions: 2,
+                upsampling: Upsampling::Nearest,
+                fused_convolutions: 1,
+                genotype: normal.clone(),
+            };
+            let rows = normal_placements(&cells, 0).map(|row| cell_row(&row, &normal.cells()));
+            let count = rows.map(|row| thousands(row.parameters));
+            assert_eq!(count, [normal_features, regressor]);
         }
     }
 

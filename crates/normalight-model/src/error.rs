@@ -63,3 +63,14 @@ pub enum ModelError {
     #[error("cancelled")]
     Cancelled,
 }
+
+impl ModelError {
+    /// A search needs cells.
+    pub(crate) fn no_cells() -> Self {
+        Self::Architecture {
+            what: "kind of a searched network".into(),
+            found: "plain".into(),
+            expected: "cells".into(),
+        }
+    }
+}

@@ -1,7 +1,7 @@
 use crate::ModelError;
 use serde::{Deserialize, Serialize};
 
-/// Candidate operations on an edge (the paper's set).
+/// Candidate operations on an edge: the paper's set, and a plain 3x3 convolution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Operation {
     /// Separable convolution with a 1x1 kernel.
@@ -13,12 +13,48 @@ pub enum Operation {
     /// Separable convolution with a 5x5 kernel.
     #[serde(rename = "separable_5x5")]
     Separable5,
+    /// ReLU, plain 3x3 convolution, batch norm: not in the paper's set.
+    #[serde(rename = "convolution_3x3")]
+    Convolution3,
     /// The identity; at stride 2 a factorised reduction.
     #[serde(rename = "skip")]
     Skip,
     /// No connection.
     #[serde(rename = "zero")]
     Zero,
+}
+
+impl Operation {
+    /// All operations there are.
+    pub const ALL: [Self; 6] = [
+        Self::Separable1,
+        Self::Separable3,
+        Self::Separable5,
+        Self::Convolution3,
+        Self::Skip,
+        Self::Zero,
+    ];
+
+    /// The operations that the paper searches among.
+    pub const PAPER: [Self; 5] = [
+        Self::Separable1,
+        Self::Separable3,
+        Self::Separable5,
+        Self::Skip,
+        Self::Zero,
+    ];
+
+    /// The name in genotype files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Separable1 => "separable_1x1",
+            Self::Separable3 => "separable_3x3",
+            Self::Separable5 => "separable_5x5",
+            Self::Convolution3 => "convolution_3x3",
+            Self::Skip => "skip",
+            Self::Zero => "zero",
+        }
+    }
 }
 
 /// One incoming edge of a node.
@@ -81,7 +117,7 @@ pub struct Genotypes {
 }
 
 /// Most nodes a cell may have: far above any published search space.
-const MAX_NODES: usize = 16;
+pub(crate) const MAX_NODES: usize = 16;
 
 impl Cell {
     /// Checks that there are nodes and that every edge reads a cell input or an earlier node.
@@ -98,16 +134,18 @@ impl Cell {
         }
         for (node, edges) in self.nodes.iter().enumerate() {
             for edge in edges {
-                if edge.from >= 2 + node {
-                    return Err(ModelError::Architecture {
-                        what: format!("{name}: input of node {node}"),
-                        found: edge.from.to_string(),
-                        expected: format!(
-                            "0 to {}: a cell input or an earlier node, so that there is no cycle",
-                            node + 1
-                        ),
-                    });
-                }
+                let rule = if edge.from >= 2 + self.nodes.len() {
+                    format!("the cell has {} nodes", self.nodes.len())
+                } else if edge.from >= 2 + node {
+                    "a cell input or an earlier node, so that there is no cycle".to_owned()
+                } else {
+                    continue;
+                };
+                return Err(ModelError::Architecture {
+                    what: format!("{name}: input of node {node}"),
+                    found: edge.from.to_string(),
+                    expected: format!("0 to {}: {rule}", node + 1),
+                });
             }
         }
         Ok(())
@@ -115,33 +153,86 @@ impl Cell {
 }
 
 impl LightGenotype {
+    /// Names of the cells, in the order of [`Self::cells`].
+    pub const CELLS: [&str; 4] = [
+        "feature_normal",
+        "feature_reduction",
+        "classifier_normal",
+        "classifier_reduction",
+    ];
+
+    /// All cells.
+    pub fn cells(&self) -> [&Cell; 4] {
+        [
+            &self.feature_normal,
+            &self.feature_reduction,
+            &self.classifier_normal,
+            &self.classifier_reduction,
+        ]
+    }
+
+    /// From all cells.
+    pub fn from_cells(cells: [Cell; 4]) -> Self {
+        let [
+            feature_normal,
+            feature_reduction,
+            classifier_normal,
+            classifier_reduction,
+        ] = cells;
+        Self {
+            feature_normal,
+            feature_reduction,
+            classifier_normal,
+            classifier_reduction,
+        }
+    }
+
     /// Checks every cell.
     ///
     /// # Errors
     /// [`ModelError::Architecture`].
     pub fn validate(&self) -> Result<(), ModelError> {
-        self.feature_normal.validate("light feature normal cell")?;
-        self.feature_reduction
-            .validate("light feature reduction cell")?;
-        self.classifier_normal
-            .validate("light classifier normal cell")?;
-        self.classifier_reduction
-            .validate("light classifier reduction cell")
+        validate_all("light", &Self::CELLS, &self.cells())
     }
 }
 
 impl NormalGenotype {
+    /// Names of the cells, in the order of [`Self::cells`].
+    pub const CELLS: [&str; 3] = ["feature_normal", "feature_reduction", "regressor_normal"];
+
+    /// All cells.
+    pub fn cells(&self) -> [&Cell; 3] {
+        [
+            &self.feature_normal,
+            &self.feature_reduction,
+            &self.regressor_normal,
+        ]
+    }
+
+    /// From all cells.
+    pub fn from_cells(cells: [Cell; 3]) -> Self {
+        let [feature_normal, feature_reduction, regressor_normal] = cells;
+        Self {
+            feature_normal,
+            feature_reduction,
+            regressor_normal,
+        }
+    }
+
     /// Checks every cell.
     ///
     /// # Errors
     /// [`ModelError::Architecture`].
     pub fn validate(&self) -> Result<(), ModelError> {
-        self.feature_normal.validate("normal feature normal cell")?;
-        self.feature_reduction
-            .validate("normal feature reduction cell")?;
-        self.regressor_normal
-            .validate("normal regressor normal cell")
+        validate_all("normal", &Self::CELLS, &self.cells())
     }
+}
+
+fn validate_all(network: &str, names: &[&str], cells: &[&Cell]) -> Result<(), ModelError> {
+    for (name, cell) in names.iter().zip(cells) {
+        cell.validate(&format!("{network} network, cell {name}"))?;
+    }
+    Ok(())
 }
 
 impl Genotypes {
@@ -200,5 +291,24 @@ mod tests {
             .to_string();
         assert!(message.contains("unknown variant `pool`"), "{message}");
         assert!(Cell { nodes: vec![] }.validate("cell").is_err());
+        let mut missing = cyclic;
+        missing.nodes[0][1].from = 3;
+        let message = missing.validate("cell").unwrap_err().to_string();
+        assert!(message.contains("the cell has 1 nodes"), "{message}");
+        let cell =
+            r#"{"nodes": [[{"operation": "skip", "from": 0}, {"operation": "zero", "from": 1}]]}"#;
+        let normal = |cells: &str| format!(r#"{{"source": "", "normal": {{{cells}}}}}"#);
+        let three = NormalGenotype::CELLS.map(|name| format!(r#""{name}": {cell}"#));
+        assert!(Genotypes::from_json("g.json", &normal(&three.join(", "))).is_ok());
+        for (cells, reason) in [
+            (three[..2].join(", "), "missing field `regressor_normal`"),
+            (
+                three.join(", ") + &format!(r#", "head": {cell}"#),
+                "unknown field `head`",
+            ),
+        ] {
+            let error = Genotypes::from_json("g.json", &normal(&cells)).unwrap_err();
+            assert!(error.to_string().contains(reason), "{error}");
+        }
     }
 }

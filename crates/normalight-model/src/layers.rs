@@ -102,12 +102,16 @@ fn bias(conv: &Conv2d) -> Tensor<1> {
 }
 
 /// Batch normalisation: by the batch's own statistics on a device with gradients, which also moves the running ones;
-/// by the running ones elsewhere.
-fn normalise(norm: &BatchNorm, input: Tensor<4>) -> Tensor<4> {
+/// by the running ones elsewhere. The result is multiplied by `weight`, `[1]`.
+fn normalise(norm: &BatchNorm, input: Tensor<4>, weight: Option<&Tensor<1>>) -> Tensor<4> {
     let epsilon = norm.epsilon as f32;
+    let weighted = |factors: Tensor<1>| match weight {
+        Some(weight) => factors * weight.clone(),
+        None => factors,
+    };
     if !input.device().is_autodiff() {
         let (scale, shift) = running_factors(norm);
-        return scale_channels(input, scale, shift);
+        return scale_channels(input, weighted(scale), weighted(shift));
     }
     let moments = BatchMoments::new(&input);
     let moved = |running: Tensor<1>, now: &Tensor<1>| {
@@ -117,7 +121,8 @@ fn normalise(norm: &BatchNorm, input: Tensor<4>) -> Tensor<4> {
     norm.running_mean.update(mean);
     let variance = moved(norm.running_var.value_sync(), &moments.variance);
     norm.running_var.update(variance);
-    batch_norm(input, &moments, norm.gamma.val(), norm.beta.val(), epsilon)
+    let (gamma, beta) = (weighted(norm.gamma.val()), weighted(norm.beta.val()));
+    batch_norm(input, &moments, gamma, beta, epsilon)
 }
 
 /// Scale and shift that normalise by the running statistics.
@@ -127,8 +132,18 @@ fn running_factors(norm: &BatchNorm) -> (Tensor<1>, Tensor<1>) {
     (scale, shift)
 }
 
-/// A convolution without bias and its batch normalisation; folded into one convolution with bias
-/// for storing and for inference.
+/// What normalisation layers are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// Batch normalisation with scale and shift of its own: for training.
+    Affine,
+    /// Without them, so that the operations of a mixed edge stay comparable: for the search.
+    Relaxed,
+    /// Folded into the convolution, which then has a bias: for storing and for inference.
+    Folded,
+}
+
+/// A convolution without bias and its batch normalisation, or both folded into one convolution.
 #[derive(Module, Debug)]
 pub(crate) struct NormedConv {
     conv: Conv2d,
@@ -136,31 +151,61 @@ pub(crate) struct NormedConv {
 }
 
 impl NormedConv {
-    /// A 1x1 convolution; `folded` leaves the normalisation out and gives the convolution a bias.
+    /// A convolution with "same" padding.
+    pub(crate) fn new(
+        channels: [usize; 2],
+        kernel: usize,
+        stride: usize,
+        form: Form,
+        device: &Device,
+    ) -> Self {
+        let padding = kernel / 2;
+        let norm = match form {
+            Form::Folded => None,
+            Form::Affine => Some(BatchNormConfig::new(channels[1]).init(device)),
+            Form::Relaxed => {
+                let mut norm = BatchNormConfig::new(channels[1]).init(device);
+                norm.gamma = norm.gamma.set_require_grad(false);
+                norm.beta = norm.beta.set_require_grad(false);
+                Some(norm)
+            }
+        };
+        Self {
+            conv: Conv2dConfig::new(channels, [kernel, kernel])
+                .with_stride([stride, stride])
+                .with_bias(norm.is_none())
+                .with_padding(PaddingConfig2d::Explicit(
+                    padding, padding, padding, padding,
+                ))
+                .init(device),
+            norm,
+        }
+    }
+
+    /// A 1x1 convolution.
     pub(crate) fn pointwise(
         channels: [usize; 2],
         stride: usize,
-        folded: bool,
+        form: Form,
         device: &Device,
     ) -> Self {
-        Self {
-            conv: Conv2dConfig::new(channels, [1, 1])
-                .with_stride([stride, stride])
-                .with_bias(folded)
-                .init(device),
-            norm: (!folded).then(|| BatchNormConfig::new(channels[1]).init(device)),
-        }
+        Self::new(channels, 1, stride, form, device)
     }
 
     /// # Shapes
     /// - input: `[batch, height, width, channels_in]`
     /// - output: `[batch, height / stride, width / stride, channels_out]`
     pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
-        self.forward_shifted(input, 0)
+        self.forward_as(input, 0, None)
     }
 
-    /// [`Self::forward`] on the input moved left and up by `shift` pixels.
-    fn forward_shifted(&self, input: Tensor<4>, shift: usize) -> Tensor<4> {
+    /// [`Self::forward`] times a number, `[1]`, which normalisation takes in as its scale.
+    pub(crate) fn forward_weighted(&self, input: Tensor<4>, weight: &Tensor<1>) -> Tensor<4> {
+        self.forward_as(input, 0, Some(weight))
+    }
+
+    /// [`Self::forward_weighted`] on the input moved left and up by `shift` pixels.
+    fn forward_as(&self, input: Tensor<4>, shift: usize, weight: Option<&Tensor<1>>) -> Tensor<4> {
         let how = Convolution {
             stride: self.conv.stride[0],
             shift,
@@ -168,9 +213,10 @@ impl NormedConv {
         };
         let output =
             normalight_kernels::convolution(input, self.conv.weight.val(), bias(&self.conv), how);
-        match &self.norm {
-            Some(norm) => normalise(norm, output),
-            None => output,
+        match (&self.norm, weight) {
+            (Some(norm), _) => normalise(norm, output, weight),
+            (None, Some(weight)) => output * weight.clone().reshape([1, 1, 1, 1]),
+            (None, None) => output,
         }
     }
 
@@ -199,12 +245,12 @@ pub(crate) struct FactorizedReduce {
 }
 
 impl FactorizedReduce {
-    pub(crate) fn new(channels: [usize; 2], folded: bool, device: &Device) -> Self {
+    pub(crate) fn new(channels: [usize; 2], form: Form, device: &Device) -> Self {
         let [channels_in, channels_out] = channels;
         let even = channels_out / 2;
         Self {
-            even: NormedConv::pointwise([channels_in, even], 2, folded, device),
-            odd: NormedConv::pointwise([channels_in, channels_out - even], 2, folded, device),
+            even: NormedConv::pointwise([channels_in, even], 2, form, device),
+            odd: NormedConv::pointwise([channels_in, channels_out - even], 2, form, device),
         }
     }
 
@@ -212,11 +258,20 @@ impl FactorizedReduce {
     /// - input: `[batch, height, width, channels_in]`, even sides
     /// - output: `[batch, height / 2, width / 2, channels_out]`
     pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
+        self.forward_as(input, None)
+    }
+
+    /// [`Self::forward`] times a number, `[1]`.
+    pub(crate) fn forward_weighted(&self, input: Tensor<4>, weight: &Tensor<1>) -> Tensor<4> {
+        self.forward_as(input, Some(weight))
+    }
+
+    fn forward_as(&self, input: Tensor<4>, weight: Option<&Tensor<1>>) -> Tensor<4> {
         let input = activation::relu(input);
         // Batch normalisation works per channel, so normalising the halves is the same as
         // normalising both together.
-        let even = self.even.forward(input.clone());
-        Tensor::cat(vec![even, self.odd.forward_shifted(input, 1)], 3)
+        let even = self.even.forward_as(input.clone(), 0, weight);
+        Tensor::cat(vec![even, self.odd.forward_as(input, 1, weight)], 3)
     }
 
     pub(crate) fn folded(&self) -> Self {

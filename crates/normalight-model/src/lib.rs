@@ -20,10 +20,14 @@ mod layers;
 mod light_network;
 mod light_stage;
 mod light_view;
+mod mixed_edge;
 mod normal_network;
 mod normal_stage;
 mod observer;
 mod operation;
+mod placement;
+mod relaxation;
+mod search_space;
 mod weights;
 
 pub use architecture::{
@@ -31,7 +35,7 @@ pub use architecture::{
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
 pub use auxiliary_tower::AuxiliaryTower;
-pub use cost::{NetworkCost, light_cost, normal_cost};
+pub use cost::{Cost, NetworkCost, light_cost, normal_cost, operation_cost};
 pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;
 pub use estimator::{Estimate, EstimateSettings, Estimator};
@@ -42,4 +46,8 @@ pub use light_view::LightView;
 pub use normal_network::NormalNetwork;
 pub use normal_stage::estimate_normals;
 pub use observer::{Observer, Progress, Quiet, Stage, StageTimes};
+pub use operation::OperationLayer;
+pub use placement::{CellPlacement, light_placements, normal_placements};
+pub use relaxation::{CellWeights, Relaxation};
+pub use search_space::SearchSpace;
 pub use weights::Weights;

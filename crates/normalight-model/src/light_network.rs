@@ -1,6 +1,9 @@
-use crate::cell::{CellLayer, CellRow, forward_row};
-use crate::layers::{convolution, convolve_row, leaky};
-use crate::{CellLight, LightArchitecture, LightBody, ModelError, PlainLight};
+use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
+use crate::layers::{Form, convolution, convolve_row, leaky};
+use crate::{
+    CellLight, LightArchitecture, LightBody, LightGenotype, ModelError, PlainLight, Relaxation,
+    SearchSpace,
+};
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
 use burn::nn::{Linear, LinearConfig};
@@ -18,6 +21,8 @@ pub struct LightNetwork {
     classifier: Classifier,
     hidden: Linear,
     output: Linear,
+    /// Weights of the operations, in a network that is searched.
+    relaxation: Option<Relaxation>,
 }
 
 #[derive(Module, Debug)]
@@ -68,18 +73,76 @@ impl LightNetwork {
         device: &Device,
     ) -> Result<Self, ModelError> {
         architecture.validate()?;
-        let (features, classifier, flat, hidden) = match &architecture.body {
+        let layers = match &architecture.body {
             LightBody::Plain(plain) => plain_layers(plain, architecture.input_size, device),
-            LightBody::Cells(cells) => cell_layers(cells, architecture.input_size, folded, device),
+            LightBody::Cells(cells) => {
+                let plans = cells.genotype.cells().map(CellPlan::Chosen);
+                let form = if folded { Form::Folded } else { Form::Affine };
+                cell_layers(cells, plans, architecture.input_size, form, device)
+            }
         };
+        Ok(Self::with_heads(architecture, layers, None, device))
+    }
+
+    /// Builds the network of a search: cells with all edges and operations of the space instead of those of
+    /// the architecture's genotype.
+    ///
+    /// # Errors
+    /// [`ModelError::Architecture`], also for a plain network.
+    pub fn relaxed(
+        architecture: &LightArchitecture,
+        space: &SearchSpace,
+        device: &Device,
+    ) -> Result<Self, ModelError> {
+        architecture.validate()?;
+        let LightBody::Cells(cells) = &architecture.body else {
+            return Err(ModelError::no_cells());
+        };
+        space.validate_for(cells.width)?;
+        let plans = [0, 1, 2, 3].map(|cell| CellPlan::Relaxed(space, cell));
+        let side = architecture.input_size;
+        let layers = cell_layers(cells, plans, side, Form::Relaxed, device);
+        let count = LightGenotype::CELLS.len();
+        let relaxation = Relaxation::new(space, count, device);
+        Ok(Self::with_heads(
+            architecture,
+            layers,
+            Some(relaxation),
+            device,
+        ))
+    }
+
+    fn with_heads(
+        architecture: &LightArchitecture,
+        (features, classifier, flat, hidden): (Features, Classifier, usize, usize),
+        relaxation: Option<Relaxation>,
+        device: &Device,
+    ) -> Self {
         let bins = &architecture.bins;
         let classes = bins.azimuth + bins.elevation + bins.intensity.count;
-        Ok(Self {
+        Self {
             features,
             classifier,
             hidden: LinearConfig::new(flat, hidden).init(device),
             output: LinearConfig::new(hidden, classes).init(device),
-        })
+            relaxation,
+        }
+    }
+
+    /// Weights of the operations, in a network that is searched.
+    pub fn relaxation(&self) -> Option<&Relaxation> {
+        self.relaxation.as_ref()
+    }
+
+    /// The same, to change them.
+    pub fn relaxation_mut(&mut self) -> Option<&mut Relaxation> {
+        self.relaxation.as_mut()
+    }
+
+    /// Runs a row of cells.
+    fn row(&self, cells: &[CellLayer], stem: Tensor<4>) -> Tensor<4> {
+        let mixture = self.relaxation.as_ref().map(Relaxation::mixture);
+        forward_row(cells, stem, mixture.as_ref())
     }
 
     /// Features of every image by itself.
@@ -90,7 +153,7 @@ impl LightNetwork {
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
             Features::Plain(plain) => plain.forward(input),
-            Features::Cells(cells) => forward_row(&cells.cells, convolve_row(&cells.stem, input)),
+            Features::Cells(cells) => self.row(&cells.cells, convolve_row(&cells.stem, input)),
         }
     }
 
@@ -105,7 +168,7 @@ impl LightNetwork {
         let last = match &self.classifier {
             Classifier::Plain(plain) => plain.forward(both),
             Classifier::Cells(cells) => {
-                let row = forward_row(&cells.cells, convolve_row(&cells.before, both));
+                let row = self.row(&cells.cells, convolve_row(&cells.before, both));
                 convolve_row(&cells.after, row)
             }
         };
@@ -160,12 +223,12 @@ fn plain_layers(
 
 fn cell_layers(
     cells: &CellLight,
+    [normal, reduction, classifier_normal, classifier_reduction]: [CellPlan; 4],
     input_size: usize,
-    folded: bool,
+    form: Form,
     device: &Device,
 ) -> (Features, Classifier, usize, usize) {
     let width = cells.width;
-    let genotype = &cells.genotype;
     let stem_channels = 3 * width;
     let stem = vec![
         convolution(
@@ -176,30 +239,24 @@ fn cell_layers(
         ),
         convolution([2 * width, stem_channels], 3, cells.stem_strides[1], device),
     ];
-    let mut row = CellRow::new(stem_channels, width, folded, device);
-    let features = vec![
-        row.normal(&genotype.feature_normal),
-        row.reduction(&genotype.feature_reduction),
-        row.normal(&genotype.feature_normal),
-        row.reduction(&genotype.feature_reduction),
-        row.normal(&genotype.feature_normal),
-    ];
+    let mut row = CellRow::new(stem_channels, width, form, device);
+    let features = row.features(normal, reduction, cells.reductions);
     let before = vec![
         convolution([2 * row.last, 4 * width], 3, 1, device),
         convolution([4 * width, stem_channels], 3, 1, device),
     ];
-    let mut classifier_row = CellRow::new(stem_channels, width, folded, device);
+    let mut classifier_row = CellRow::new(stem_channels, width, form, device);
     let classifier = vec![
-        classifier_row.normal(&genotype.classifier_normal),
-        classifier_row.reduction(&genotype.classifier_reduction),
+        classifier_row.normal(classifier_normal),
+        classifier_row.reduction(classifier_reduction),
     ];
     let after = vec![
         convolution([classifier_row.last, 4 * width], 3, 2, device),
         convolution([4 * width, 4 * width], 3, 1, device),
     ];
-    // Two reductions in the features, one in the classifier, one stride after it.
+    // Besides the reductions in the features one in the classifier and one stride after it.
     let stem_stride: usize = cells.stem_strides.iter().product();
-    let side = (input_size / stem_stride).div_ceil(16);
+    let side = (input_size / stem_stride).div_ceil(4 << cells.reductions);
     (
         Features::Cells(CellFeatures {
             stem,

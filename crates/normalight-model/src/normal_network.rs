@@ -1,8 +1,11 @@
-use crate::cell::{CellLayer, CellRow, forward_row};
+use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
 use crate::layers::{
-    LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row, unit_length,
+    Form, LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row, unit_length,
 };
-use crate::{CellNormal, ModelError, NormalArchitecture, NormalBody, PlainNormal, Upsampling};
+use crate::{
+    CellNormal, ModelError, NormalArchitecture, NormalBody, NormalGenotype, PlainNormal,
+    Relaxation, SearchSpace, Upsampling,
+};
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
 use burn::tensor::{Device, Tensor};
@@ -13,6 +16,8 @@ use normalight_kernels::transposed_convolution;
 #[derive(Module, Debug)]
 pub struct NormalNetwork {
     body: Body,
+    /// Weights of the operations, in a network that is searched.
+    relaxation: Option<Relaxation>,
 }
 
 #[derive(Module, Debug)]
@@ -37,7 +42,7 @@ struct CellBody {
     features: Vec<CellLayer>,
     feature_up: UpLayer,
     feature_conv: Conv2d,
-    /// Whether `feature_conv` doubles the size once more.
+    /// Whether `feature_conv` doubles the size, too.
     second_up: bool,
     fused: Vec<Conv2d>,
     regressor: Vec<CellLayer>,
@@ -45,11 +50,13 @@ struct CellBody {
     output: Conv2d,
 }
 
-/// Doubles the size and changes the width.
+/// Doubles the size, perhaps, and changes the width.
 #[derive(Module, Debug)]
 enum UpLayer {
     Transposed(ConvTranspose2d),
     Nearest(Conv2d),
+    /// The size stays.
+    Same(Conv2d),
 }
 
 impl UpLayer {
@@ -74,6 +81,7 @@ impl UpLayer {
                 transposed_convolution(input, conv.weight.val(), bias.val(), LEAK)
             }
             Self::Nearest(conv) => convolve_doubled(conv, input),
+            Self::Same(conv) => convolve_leaky(conv, input),
         }
     }
 }
@@ -96,9 +104,56 @@ impl NormalNetwork {
         let channels = architecture.input_channels();
         let body = match &architecture.body {
             NormalBody::Plain(plain) => Body::Plain(PlainBody::new(plain, channels, device)),
-            NormalBody::Cells(cells) => Body::Cells(CellBody::new(cells, channels, folded, device)),
+            NormalBody::Cells(cells) => {
+                let plans = cells.genotype.cells().map(CellPlan::Chosen);
+                let form = if folded { Form::Folded } else { Form::Affine };
+                Body::Cells(CellBody::new(cells, plans, channels, form, device))
+            }
         };
-        Ok(Self { body })
+        Ok(Self {
+            body,
+            relaxation: None,
+        })
+    }
+
+    /// Builds the network of a search: cells with all edges and operations of the space instead of those of
+    /// the architecture's genotype.
+    ///
+    /// # Errors
+    /// [`ModelError::Architecture`], also for a plain network.
+    pub fn relaxed(
+        architecture: &NormalArchitecture,
+        space: &SearchSpace,
+        device: &Device,
+    ) -> Result<Self, ModelError> {
+        architecture.validate()?;
+        let NormalBody::Cells(cells) = &architecture.body else {
+            return Err(ModelError::no_cells());
+        };
+        space.validate_for(cells.width)?;
+        let plans = [0, 1, 2].map(|cell| CellPlan::Relaxed(space, cell));
+        let channels = architecture.input_channels();
+        let count = NormalGenotype::CELLS.len();
+        Ok(Self {
+            body: Body::Cells(CellBody::new(cells, plans, channels, Form::Relaxed, device)),
+            relaxation: Some(Relaxation::new(space, count, device)),
+        })
+    }
+
+    /// Weights of the operations, in a network that is searched.
+    pub fn relaxation(&self) -> Option<&Relaxation> {
+        self.relaxation.as_ref()
+    }
+
+    /// The same, to change them.
+    pub fn relaxation_mut(&mut self) -> Option<&mut Relaxation> {
+        self.relaxation.as_mut()
+    }
+
+    /// Runs a row of cells.
+    fn row(&self, cells: &[CellLayer], stem: Tensor<4>) -> Tensor<4> {
+        let mixture = self.relaxation.as_ref().map(Relaxation::mixture);
+        forward_row(cells, stem, mixture.as_ref())
     }
 
     /// Features of every image by itself.
@@ -115,7 +170,7 @@ impl NormalNetwork {
                 convolve_row(&plain.up[1..], large)
             }
             Body::Cells(cells) => {
-                let row = forward_row(&cells.features, convolve_row(&cells.stem, input));
+                let row = self.row(&cells.features, convolve_row(&cells.stem, input));
                 let features = cells.feature_up.forward(row);
                 if cells.second_up {
                     convolve_doubled(&cells.feature_conv, features)
@@ -138,7 +193,7 @@ impl NormalNetwork {
                 convolve(&plain.output, convolve_doubled(&plain.head, fused))
             }
             Body::Cells(cells) => {
-                let row = forward_row(&cells.regressor, convolve_row(&cells.fused, fused));
+                let row = self.row(&cells.regressor, convolve_row(&cells.fused, fused));
                 convolve(&cells.output, cells.regressor_up.forward(row))
             }
         };
@@ -178,35 +233,36 @@ impl PlainBody {
 }
 
 impl CellBody {
-    fn new(cells: &CellNormal, channels: usize, folded: bool, device: &Device) -> Self {
+    fn new(
+        cells: &CellNormal,
+        [normal, reduction, regressor]: [CellPlan; 3],
+        channels: usize,
+        form: Form,
+        device: &Device,
+    ) -> Self {
         let width = cells.width;
-        let genotype = &cells.genotype;
         let conv = |channels, stride| convolution(channels, 3, stride, device);
         let stem = vec![
             conv([channels, 2 * width], cells.stem_strides[0]),
             conv([2 * width, 3 * width], cells.stem_strides[1]),
         ];
-        let mut row = CellRow::new(3 * width, width, folded, device);
-        let features = vec![
-            row.normal(&genotype.feature_normal),
-            row.reduction(&genotype.feature_reduction),
-            row.normal(&genotype.feature_normal),
-            row.reduction(&genotype.feature_reduction),
-            row.normal(&genotype.feature_normal),
-        ];
-        let mut regressor_row = CellRow::new(3 * width, width, folded, device);
-        let regressor: Vec<CellLayer> = (0..3)
-            .map(|_| regressor_row.normal(&genotype.regressor_normal))
-            .collect();
+        let mut row = CellRow::new(3 * width, width, form, device);
+        let features = row.features(normal, reduction, cells.reductions);
+        let mut regressor_row = CellRow::new(3 * width, width, form, device);
+        let regressor: Vec<CellLayer> = (0..3).map(|_| regressor_row.normal(regressor)).collect();
         let mut fused = vec![conv([4 * width, 3 * width], 1)];
         if cells.fused_convolutions == 2 {
             fused.insert(0, conv([4 * width, 4 * width], 1));
         }
+        let feature_channels = [row.last, 4 * width];
         Self {
             stem,
-            feature_up: UpLayer::new([row.last, 4 * width], cells.upsampling, device),
+            feature_up: match cells.doublings() {
+                0 => UpLayer::Same(conv(feature_channels, 1)),
+                _ => UpLayer::new(feature_channels, cells.upsampling, device),
+            },
             feature_conv: conv([4 * width, 4 * width], 1),
-            second_up: cells.stem_strides[1] == 2,
+            second_up: cells.doublings() == 2,
             features,
             fused,
             regressor_up: UpLayer::new([regressor_row.last, 2 * width], cells.upsampling, device),

@@ -17,6 +17,7 @@ fn paper_light() -> LightArchitecture {
         body: LightBody::Cells(CellLight {
             width: 4,
             stem_strides: [1, 2],
+            reductions: 2,
             hidden: 32,
             genotype: paper_genotypes().light.unwrap(),
         }),
@@ -30,6 +31,7 @@ fn paper_normal(upsampling: Upsampling, stem_strides: [usize; 2]) -> NormalArchi
         body: NormalBody::Cells(CellNormal {
             width: 4,
             stem_strides,
+            reductions: 2,
             upsampling,
             fused_convolutions: stem_strides[1],
             genotype: paper_genotypes().normal.unwrap(),

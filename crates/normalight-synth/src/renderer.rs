@@ -49,6 +49,26 @@ impl Renderer {
         })
     }
 
+    /// Two renderers whose meshes differ: each has every second one of the recipe's.
+    ///
+    /// # Errors
+    /// As of [`Self::new`]; a folder with one mesh alone.
+    pub fn halves(recipe: SceneRecipe) -> Result<[Self; 2], SynthError> {
+        let whole = Self::new(recipe)?;
+        if whole.meshes.len() == 1 {
+            return Err(SynthError::OutOfRange {
+                field: "number of meshes in shapes.mesh_folder",
+                found: "1".into(),
+                expected: "2 or more, to give each half of a search its own",
+            });
+        }
+        Ok([0, 1].map(|half| Self {
+            recipe: whole.recipe.clone(),
+            meshes: whole.meshes.iter().skip(half).step_by(2).cloned().collect(),
+            measured: whole.measured.clone(),
+        }))
+    }
+
     /// The recipe.
     pub fn recipe(&self) -> &SceneRecipe {
         &self.recipe

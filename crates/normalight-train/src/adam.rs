@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 ///
 /// The state lives on the host under the weights' names, so that a checkpoint is plain numbers and
 /// a resumed run continues exactly.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Adam {
     step: i32,
     /// First and second moments by name.
@@ -31,7 +31,16 @@ impl HostGradients {
             found: NamedTensors::new(),
         };
         network.visit(&mut collector);
-        let values = collector.found;
+        Self::from_values(collector.found)
+    }
+
+    /// The gradients of those weights for which `wanted` holds.
+    pub(crate) fn only(mut self, wanted: impl Fn(&str) -> bool) -> Self {
+        self.values.retain(|name, _| wanted(name));
+        Self::from_values(self.values)
+    }
+
+    pub(crate) fn from_values(values: NamedTensors) -> Self {
         let square: f64 = values
             .values()
             .flatten()

@@ -329,6 +329,7 @@ mod tests {
         recipe.normal.architecture.body = NormalBody::Cells(CellNormal {
             width: 2,
             stem_strides: [1, 2],
+            reductions: 2,
             upsampling: Upsampling::Nearest,
             fused_convolutions: 1,
             genotype: paper.normal.unwrap(),

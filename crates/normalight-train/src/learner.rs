@@ -15,17 +15,25 @@ pub(crate) trait Learner {
     /// Of the device.
     fn learn(&mut self, batch: &Self::Batch, step: usize) -> Result<Learned, TrainError>;
 
-    /// Errors on unseen objects.
+    /// Errors on unseen objects after so many steps.
     ///
     /// # Errors
     /// Of the pipeline.
-    fn validate(&self) -> Result<Validation, TrainError>;
+    fn validate(&mut self, step: usize) -> Result<Validation, TrainError>;
+
+    /// Whether the newest result is kept instead of the best on validation.
+    const KEEPS_NEWEST: bool = false;
 
     /// Content of the result's file; nothing for a result that no file can hold.
     ///
     /// # Errors
     /// Of the device.
     fn result(&self) -> Result<Option<Vec<u8>>, TrainError>;
+
+    /// Files that show how it stands, by name; written after every validation.
+    fn drawings(&self) -> Vec<(String, Vec<u8>)> {
+        Vec::new()
+    }
 
     /// Everything that a continued run needs.
     fn state(&self) -> NamedTensors;

@@ -29,6 +29,7 @@ mod recipe;
 mod run;
 mod run_folder;
 mod samples;
+mod search;
 mod session;
 mod source;
 mod speed;
@@ -43,6 +44,10 @@ pub use recipe::{
     PublishedChoice, PublishedRecipe, Schedule, TrainRecipe,
 };
 pub use run::{Devices, TrainRun, train};
+pub use search::{
+    AlphaRecipe, Budget, Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun,
+    SearchSettings, placements, random_genotypes, search,
+};
 pub use session::TrainEvent;
 pub use speed::{OptimiserStep, SampleSource};
 pub use summary::{Best, RunState, Summary};

@@ -9,9 +9,7 @@ pub(crate) fn model_card(recipe: &TrainRecipe, summary: &Summary, command: &str)
         Network::Normal => ("Normal estimation network", "normals"),
     };
     let mut card = format!("# {title}\n\n| | |\n| --- | --- |\n");
-    let mut row = |name: &str, value: &str| {
-        let _ = writeln!(card, "| {name} | {} |", value.replace('|', "\\|"));
-    };
+    let mut row = |name: &str, value: &str| card += &self::row(name, value);
     row("data", &data(recipe));
     row("command", &format!("`{command}`"));
     if let Some(init) = &recipe.init {
@@ -73,7 +71,12 @@ fn figures(best: &Best, what: &str) -> String {
     table
 }
 
-fn data(recipe: &TrainRecipe) -> String {
+/// A line of a card's table.
+pub(crate) fn row(name: &str, value: &str) -> String {
+    format!("| {name} | {} |\n", value.replace('|', "\\|"))
+}
+
+pub(crate) fn data(recipe: &TrainRecipe) -> String {
     let [fewest, most] = recipe.images;
     let images = format!("{fewest} to {most} images of {0}x{0} pixels", recipe.size);
     match (&recipe.published, &recipe.cache) {

@@ -93,7 +93,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
 ///
 /// The backend has one generator for the whole program, and weights are drawn when they are first looked at: both happen
 /// here while no other run does the same.
-fn seeded<M: Module>(
+pub(crate) fn seeded<M: Module>(
     device: &Device,
     seed: u64,
     build: impl FnOnce() -> Result<M, TrainError>,
@@ -136,7 +136,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
         Ok(learned)
     }
 
-    fn validate(&self) -> Result<Validation, TrainError> {
+    fn validate(&mut self, _step: usize) -> Result<Validation, TrainError> {
         T::validate(self.recipe, &self.judged(), &self.objects, self.device)
     }
 

@@ -22,8 +22,18 @@ pub(crate) struct NormalTask;
 /// The normal network, and the tower that helps its features while it is trained and then goes.
 #[derive(Module, Debug)]
 pub(crate) struct NormalTraining {
-    network: NormalNetwork,
+    pub(crate) network: NormalNetwork,
     auxiliary: Option<AuxiliaryTower>,
+}
+
+impl NormalTraining {
+    /// With a tower if the recipe wants one.
+    pub(crate) fn new(network: NormalNetwork, recipe: &TrainRecipe, device: &Device) -> Self {
+        let settings = &recipe.normal;
+        let tower = || AuxiliaryTower::new(&settings.architecture, device);
+        let auxiliary = (settings.auxiliary_weight > 0.0).then(tower);
+        Self { network, auxiliary }
+    }
 }
 
 impl Task for NormalTask {
@@ -31,11 +41,8 @@ impl Task for NormalTask {
     const FRAMING: Framing = Framing::Crop;
 
     fn network(recipe: &TrainRecipe, device: &Device) -> Result<NormalTraining, TrainError> {
-        let settings = &recipe.normal;
-        let network = NormalNetwork::new(&settings.architecture, false, device)?;
-        let tower = || AuxiliaryTower::new(&settings.architecture, device);
-        let auxiliary = (settings.auxiliary_weight > 0.0).then(tower);
-        Ok(NormalTraining { network, auxiliary })
+        let network = NormalNetwork::new(&recipe.normal.architecture, false, device)?;
+        Ok(NormalTraining::new(network, recipe, device))
     }
 
     fn start_from(

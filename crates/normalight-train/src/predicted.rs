@@ -1,5 +1,5 @@
 //! The errors that a light network makes, as the lights of training samples.
-use crate::TrainError;
+use crate::{Network, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use glam::Vec3;
 use normalight_core::{Decoding, Light};
@@ -37,6 +37,17 @@ pub(crate) struct Prediction {
 }
 
 impl Predictor {
+    /// For a recipe that asks for predicted lights.
+    ///
+    /// # Errors
+    /// The file, or weights of another network.
+    pub(crate) fn of(recipe: &TrainRecipe, device: &Device) -> Result<Option<Self>, TrainError> {
+        let mix = &recipe.normal.lights;
+        (recipe.network == Network::Normal && mix.predicted > 0.0)
+            .then(|| Self::new(mix.light_weights.as_deref(), device))
+            .transpose()
+    }
+
     /// `file`: a light network's weights; the shipped ones when missing.
     ///
     /// # Errors

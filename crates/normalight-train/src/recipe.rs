@@ -6,14 +6,15 @@ mod networks;
 mod optimiser;
 mod sources;
 
-pub(crate) use check::MOST_GIGABYTES;
+pub(crate) use check::{MOST_GIGABYTES, check};
 pub(crate) use difference::{Difference, differences};
+pub(crate) use genotype::{read_table, take_out};
 pub use networks::{LightMix, LightSettings, NormalSettings};
 pub use optimiser::{Decay, OptimiserRecipe, Schedule};
 pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
 
 use crate::TrainError;
-use normalight_model::{light_cost, normal_cost};
+use normalight_model::{Genotypes, LightBody, NormalBody, light_cost, normal_cost};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -117,26 +118,9 @@ impl TrainRecipe {
     /// # Errors
     /// [`TrainError::File`], [`TrainError::Recipe`] or [`TrainError::Value`].
     pub fn read(path: &Path) -> Result<Self, TrainError> {
-        let failed = |source| TrainError::File {
-            path: path.to_owned(),
-            source,
-        };
-        let text = std::fs::read_to_string(path).map_err(failed)?;
+        let text = read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let mut recipe = Self::parse_in(folder, &path.display().to_string(), &text)?;
-        // A run may be continued from another folder than it was begun in.
-        let folder = std::path::absolute(path).map_err(failed)?;
-        let folder = folder.parent().unwrap_or(Path::new(""));
-        recipe.scene.resolve_paths(folder);
-        let mut paths: Vec<&mut PathBuf> = Vec::new();
-        paths.extend(recipe.published.as_mut().map(|set| &mut set.folder));
-        paths.extend(recipe.cache.as_mut().map(|cache| &mut cache.folder));
-        paths.extend(recipe.normal.lights.light_weights.as_mut());
-        paths.extend(recipe.init.as_mut());
-        for path in paths {
-            *path = folder.join(&*path);
-        }
-        Ok(recipe)
+        Self::parse_in(folder, &path.display().to_string(), &text)?.with_paths_from(path)
     }
 
     /// Parses and checks a recipe; a genotype file in it is looked for in the current folder.
@@ -147,20 +131,91 @@ impl TrainRecipe {
         Self::parse_in(Path::new(""), file, text)
     }
 
+    /// [`Self::read`] for a recipe of a network whose cells are yet to be chosen: where the architecture has cells and no
+    /// `genotype`, some stand in for them.
+    ///
+    /// # Errors
+    /// As of [`Self::read`].
+    pub fn read_without_cells(path: &Path) -> Result<Self, TrainError> {
+        let (file, text) = (path.display().to_string(), read_text(path)?);
+        let table = genotype::read_table(&file, &text)?;
+        Self::from_open_table(&file, table)?.with_paths_from(path)
+    }
+
     fn parse_in(folder: &Path, file: &str, text: &str) -> Result<Self, TrainError> {
-        let failed = |error: toml::de::Error| TrainError::Recipe {
-            file: file.to_owned(),
-            reason: error.to_string(),
-        };
-        let mut table: toml::Table = toml::from_str(text).map_err(failed)?;
-        let recipe: Self = if genotype::read_genotypes(&mut table, folder)? {
-            table.try_into().map_err(failed)?
-        } else {
-            // From the text, for errors that show the line.
-            toml::from_str(text).map_err(failed)?
-        };
+        let mut table = genotype::read_table(file, text)?;
+        if genotype::read_genotypes(&mut table, folder)? {
+            return Self::from_table(file, table);
+        }
+        // From the text, for errors that show the line.
+        let recipe: Self = toml::from_str(text).map_err(|error| genotype::failed(file, &error))?;
         recipe.validate()?;
         Ok(recipe)
+    }
+
+    /// A recipe that may lack its cells, see [`Self::read_without_cells`].
+    pub(crate) fn from_open_table(file: &str, mut table: toml::Table) -> Result<Self, TrainError> {
+        genotype::fill_in(&mut table);
+        Self::from_table(file, table)
+    }
+
+    fn from_table(file: &str, table: toml::Table) -> Result<Self, TrainError> {
+        let recipe: Self = table
+            .try_into()
+            .map_err(|error| genotype::failed(file, &error))?;
+        recipe.validate()?;
+        Ok(recipe)
+    }
+
+    /// Relative paths start at the folder of the recipe's file and become absolute: a run may be continued from another
+    /// folder than it was begun in.
+    pub(crate) fn with_paths_from(mut self, file: &Path) -> Result<Self, TrainError> {
+        let file = std::path::absolute(file).map_err(|source| TrainError::File {
+            path: file.to_owned(),
+            source,
+        })?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        self.scene.resolve_paths(folder);
+        let mut paths: Vec<&mut PathBuf> = Vec::new();
+        paths.extend(self.published.as_mut().map(|set| &mut set.folder));
+        paths.extend(self.cache.as_mut().map(|cache| &mut cache.folder));
+        paths.extend(self.normal.lights.light_weights.as_mut());
+        paths.extend(self.init.as_mut());
+        for path in paths {
+            *path = folder.join(&*path);
+        }
+        Ok(self)
+    }
+
+    /// The same with these cells.
+    ///
+    /// # Errors
+    /// [`TrainError::Value`] when the network is a plain one, or the genotypes have none of its cells.
+    pub fn with_cells(mut self, genotypes: &Genotypes) -> Result<Self, TrainError> {
+        let done = match self.network {
+            Network::Light => match (&mut self.light.architecture.body, &genotypes.light) {
+                (LightBody::Cells(cells), Some(genotype)) => {
+                    cells.genotype = genotype.clone();
+                    true
+                }
+                _ => false,
+            },
+            Network::Normal => match (&mut self.normal.architecture.body, &genotypes.normal) {
+                (NormalBody::Cells(cells), Some(genotype)) => {
+                    cells.genotype = genotype.clone();
+                    true
+                }
+                _ => false,
+            },
+        };
+        if done {
+            return Ok(self);
+        }
+        Err(TrainError::Value {
+            field: "genotype",
+            found: format!("not for this {} network", self.network.name()),
+            expected: "cells of the recipe's network, which must be one of cells",
+        })
     }
 
     /// The recipe as TOML.
@@ -186,6 +241,13 @@ impl TrainRecipe {
     pub(crate) fn rate(&self, step: usize) -> f32 {
         self.optimiser.rate(step, self.steps)
     }
+}
+
+fn read_text(path: &Path) -> Result<String, TrainError> {
+    std::fs::read_to_string(path).map_err(|source| TrainError::File {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 #[cfg(test)]

@@ -110,10 +110,7 @@ where
 {
     // Before anything is written: a file that the recipe names may be missing.
     let source = Arc::new(Source::open(recipe, T::FRAMING)?);
-    let mix = &recipe.normal.lights;
-    let predictor = (recipe.network == Network::Normal && mix.predicted > 0.0)
-        .then(|| Predictor::new(mix.light_weights.as_deref(), devices.main))
-        .transpose()?;
+    let predictor = Predictor::of(recipe, devices.main)?;
     let mut learner = NetworkLearner::<T>::new(recipe, devices.main, devices.others)?;
     session.begin(&mut learner, |learner| {
         let Some(init) = &recipe.init else {
@@ -125,18 +122,22 @@ where
         learner.start_from(&read_weights(init)?)?;
         Ok(format!("started from {}", init.display()))
     })?;
-    let pixels = match recipe.network {
-        Network::Light => recipe.size,
-        Network::Normal => VALIDATION_PIXELS,
-    };
-    learner.validate_on(source.validation_objects(recipe, pixels)?);
+    learner.validate_on(source.validation_objects(recipe, validation_pixels(recipe))?);
     let maker = SampleMaker::<T>::new(recipe, &source, predictor);
     session.go(&mut learner, &maker, threads(recipe))
 }
 
+/// Side in pixels of the objects to validate on: normals on whole objects, whatever the crops to train on are.
+pub(crate) fn validation_pixels(recipe: &TrainRecipe) -> usize {
+    match recipe.network {
+        Network::Light => recipe.size,
+        Network::Normal => VALIDATION_PIXELS,
+    }
+}
+
 /// Threads that make samples: one core is left to the training, and no more memory is taken than a
 /// recipe may ask for.
-fn threads(recipe: &TrainRecipe) -> usize {
+pub(crate) fn threads(recipe: &TrainRecipe) -> usize {
     recipe.loader_threads.unwrap_or_else(|| {
         let cores = available_parallelism().map_or(1, usize::from);
         let fit = MOST_GIGABYTES / recipe.gigabytes_of_scenes().max(1e-9);

@@ -213,7 +213,7 @@ mod tests {
             })
         }
 
-        fn validate(&self) -> Result<Validation, TrainError> {
+        fn validate(&mut self, _step: usize) -> Result<Validation, TrainError> {
             Ok(Validation {
                 degrees: self.0.abs(),
                 figures: BTreeMap::new(),

@@ -1,10 +1,12 @@
 use crate::cache::SceneCache;
-use crate::{PublishedChoice, TrainError, TrainRecipe};
+use crate::{PublishedChoice, PublishedRecipe, TrainError, TrainRecipe};
 use normalight_io::{PublishedEntry, PublishedSet, PublishedSplit};
 use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene, scrambled};
 
 /// Numbers of validation objects start here, far from any training object.
 const VALIDATION_NUMBERS: u64 = 1 << 40;
+/// Numbers of the scenes of the second half of a search start here.
+const SECOND_HALF_NUMBERS: u64 = 1 << 42;
 /// Images of a validation object.
 const VALIDATION_IMAGES: usize = 12;
 /// The search of the paper: share of the set, and side of its pictures.
@@ -13,8 +15,16 @@ const SEARCH_SIDE: usize = 64;
 
 /// Where samples come from.
 pub(crate) enum Source {
-    Rendered(Box<Renderer>, Option<SceneCache>),
+    Rendered(Box<Rendered>),
     Published(Box<Published>),
+}
+
+/// Scenes rendered when they are needed.
+pub(crate) struct Rendered {
+    renderer: Renderer,
+    cache: Option<SceneCache>,
+    /// Added to the numbers of scenes.
+    first: u64,
 }
 
 /// A published set and how it is divided.
@@ -22,6 +32,8 @@ pub(crate) struct Published {
     set: PublishedSet,
     split: PublishedSplit,
     part: PublishedChoice,
+    /// Whether samples come from the split's validation part.
+    second_half: bool,
 }
 
 impl Source {
@@ -34,18 +46,38 @@ impl Source {
             let renderer = Renderer::new(recipe.scene.clone())?;
             let cache = recipe.cache.as_ref();
             let cache = cache.map(|cache| SceneCache::open(cache, recipe, framing));
-            return Ok(Self::Rendered(Box::new(renderer), cache.transpose()?));
+            return Ok(Self::Rendered(Box::new(Rendered {
+                renderer,
+                cache: cache.transpose()?,
+                first: 0,
+            })));
         };
-        let set = PublishedSet::open(&published.folder)?;
-        let split = match published.part {
-            PublishedChoice::Train => set.train_split(recipe.seed)?,
-            PublishedChoice::Search => set.search_split(recipe.seed, SEARCH_SHARE)?,
-        };
-        Ok(Self::Published(Box::new(Published {
-            set,
-            split,
-            part: published.part,
-        })))
+        Ok(Self::Published(Box::new(Published::open(
+            recipe, published, false,
+        )?)))
+    }
+
+    /// Both halves of a search's data, which show no shape in common: other random shapes, every second mesh, the two
+    /// parts of a published set's split.
+    ///
+    /// # Errors
+    /// As of [`Self::open`]; a mesh alone.
+    pub(crate) fn halves(recipe: &TrainRecipe) -> Result<[Self; 2], TrainError> {
+        if let Some(published) = &recipe.published {
+            let half = |second| Published::open(recipe, published, second);
+            return Ok([half(false)?, half(true)?].map(|half| Self::Published(Box::new(half))));
+        }
+        let renderers = Renderer::halves(recipe.scene.clone())?;
+        let mut first = 0;
+        Ok(renderers.map(|renderer| {
+            let rendered = Rendered {
+                renderer,
+                cache: None,
+                first,
+            };
+            first = SECOND_HALF_NUMBERS;
+            Self::Rendered(Box::new(rendered))
+        }))
     }
 
     /// Scene `number`, fit for samples of up to `images` images and `size` pixels.
@@ -58,13 +90,21 @@ impl Source {
         framing: Framing,
     ) -> Result<Scene, TrainError> {
         match self {
-            Self::Rendered(renderer, Some(cache)) => cache.scene(renderer, number, size, framing),
-            Self::Rendered(renderer, None) => Ok(match framing {
-                Framing::WholeObject => renderer.whole_scene(number, images, size),
-                Framing::Crop => renderer.crop_scene(number, images, size),
-            }),
+            Self::Rendered(rendered) => {
+                let (renderer, number) = (&rendered.renderer, rendered.first + number);
+                match (&rendered.cache, framing) {
+                    (Some(cache), _) => cache.scene(renderer, number, size, framing),
+                    (None, Framing::WholeObject) => Ok(renderer.whole_scene(number, images, size)),
+                    (None, Framing::Crop) => Ok(renderer.crop_scene(number, images, size)),
+                }
+            }
             Self::Published(published) => {
-                let entries = &published.split.train;
+                let split = &published.split;
+                let entries = if published.second_half {
+                    &split.validation
+                } else {
+                    &split.train
+                };
                 let entry = &entries[(scrambled(number) >> 8) as usize % entries.len()];
                 published.scene(recipe, entry, number, size, framing)
             }
@@ -80,9 +120,14 @@ impl Source {
         let count = recipe.validation_objects;
         let numbers = (0..count as u64).map(|k| VALIDATION_NUMBERS + k);
         match self {
-            Self::Rendered(renderer, _) => Ok(numbers
+            Self::Rendered(rendered) => Ok(numbers
                 .map(|number| {
-                    renderer.sample(number, VALIDATION_IMAGES, pixels, Framing::WholeObject)
+                    rendered.renderer.sample(
+                        number,
+                        VALIDATION_IMAGES,
+                        pixels,
+                        Framing::WholeObject,
+                    )
                 })
                 .collect()),
             Self::Published(published) => {
@@ -101,6 +146,24 @@ impl Source {
 }
 
 impl Published {
+    fn open(
+        recipe: &TrainRecipe,
+        published: &PublishedRecipe,
+        second_half: bool,
+    ) -> Result<Self, TrainError> {
+        let set = PublishedSet::open(&published.folder)?;
+        let split = match published.part {
+            PublishedChoice::Train => set.train_split(recipe.seed)?,
+            PublishedChoice::Search => set.search_split(recipe.seed, SEARCH_SHARE)?,
+        };
+        Ok(Self {
+            set,
+            split,
+            part: published.part,
+            second_half,
+        })
+    }
+
     fn scene(
         &self,
         recipe: &TrainRecipe,

@@ -123,16 +123,16 @@ fn learn<L: Learner>(
     }
 }
 
-/// Validates, draws the curves, and keeps the result when it is the best.
+/// Validates, draws the curves, and keeps the result when it is the best or always the newest is kept.
 fn validate<L: Learner>(
-    learner: &L,
+    learner: &mut L,
     folder: &RunFolder,
     standing: &mut Standing,
     points: &mut Vec<Point>,
     rate: f32,
     seconds: f64,
 ) -> Result<Validation, TrainError> {
-    let validation = learner.validate()?;
+    let validation = learner.validate(standing.step)?;
     let (sum, count) = std::mem::take(&mut standing.recent);
     points.push(Point {
         step: standing.step,
@@ -143,12 +143,19 @@ fn validate<L: Learner>(
         figures: validation.figures.clone(),
     });
     curves::write(folder.path(), points)?;
+    for (name, content) in learner.drawings() {
+        folder.write(&name, &content)?;
+    }
     let better = |best: &Best| validation.degrees < best.degrees;
-    if validation.degrees.is_finite()
-        && standing.best.as_ref().is_none_or(better)
+    let is_best = validation.degrees.is_finite() && standing.best.as_ref().is_none_or(better);
+    if (is_best || L::KEEPS_NEWEST)
         && let Some(result) = learner.result()?
     {
         folder.write_result(&result)?;
+    } else {
+        return Ok(validation);
+    }
+    if is_best {
         standing.best = Some(Best {
             step: standing.step,
             degrees: validation.degrees,

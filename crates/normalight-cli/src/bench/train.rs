@@ -2,6 +2,7 @@
 mod networks;
 mod operations;
 
+use super::median_seconds;
 use crate::Outcome;
 use crate::args::BenchTrainArgs;
 use crate::interrupt;
@@ -120,31 +121,6 @@ fn matmul(device: &Device, least: Duration) -> f64 {
         [start.elapsed()]
     });
     2.0 * (SIDE as f64).powi(3) / seconds[0] / 1e9
-}
-
-/// Medians of what `work` measures, repeated for at least that long and at least five times after two warm-ups.
-fn median_seconds<const N: usize>(
-    least: Duration,
-    mut work: impl FnMut() -> [Duration; N],
-) -> [f64; N] {
-    const FEWEST: usize = 5;
-    for _ in 0..2 {
-        work();
-    }
-    let mut times: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
-    let start = Instant::now();
-    while start.elapsed() < least || times.iter().any(|times| times.len() < FEWEST) {
-        for (times, time) in times.iter_mut().zip(work()) {
-            times.push(time.as_secs_f64());
-        }
-        if interrupt::asked() {
-            break;
-        }
-    }
-    times.map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    })
 }
 
 fn to_text(report: &Report) -> String {

@@ -79,7 +79,7 @@ impl TrainRecipe {
     }
 }
 
-pub(super) fn check<T: PartialOrd + std::fmt::Display>(
+pub(crate) fn check<T: PartialOrd + std::fmt::Display>(
     field: &'static str,
     found: T,
     low: T,

@@ -1,19 +1,39 @@
 use crate::TrainError;
-use normalight_model::Genotypes;
+use normalight_model::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
+use serde::Serialize;
 use std::path::Path;
 use toml::{Table, Value};
+
+/// Networks of a recipe that may have cells.
+const NETWORKS: [&str; 2] = ["light", "normal"];
+
+pub(super) fn failed(file: &str, error: &toml::de::Error) -> TrainError {
+    TrainError::Recipe {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    }
+}
+
+pub(crate) fn read_table(file: &str, text: &str) -> Result<Table, TrainError> {
+    toml::from_str(text).map_err(|error| failed(file, &error))
+}
+
+/// The layers of a network in a recipe.
+fn body<'a>(recipe: &'a mut Table, network: &str) -> Option<&'a mut Table> {
+    let settings = recipe.get_mut(network)?;
+    settings
+        .get_mut("architecture")?
+        .get_mut("body")?
+        .as_table_mut()
+}
 
 /// Replaces `genotype = "FILE"` of an architecture by the file's cells; paths start at `folder`.
 ///
 /// Tells whether there was anything to replace.
 pub(super) fn read_genotypes(recipe: &mut Table, folder: &Path) -> Result<bool, TrainError> {
     let mut found = false;
-    for network in ["light", "normal"] {
-        let genotype = recipe
-            .get_mut(network)
-            .and_then(|settings| settings.get_mut("architecture"))
-            .and_then(|architecture| architecture.get_mut("body"))
-            .and_then(|body| body.get_mut("genotype"));
+    for network in NETWORKS {
+        let genotype = body(recipe, network).and_then(|body| body.get_mut("genotype"));
         let Some(genotype) = genotype else { continue };
         if let Value::String(name) = genotype {
             *genotype = read(&folder.join(&*name), network)?;
@@ -21,6 +41,45 @@ pub(super) fn read_genotypes(recipe: &mut Table, folder: &Path) -> Result<bool, 
         }
     }
     Ok(found)
+}
+
+/// Gives architectures with cells that lack a `genotype` one to stand in.
+pub(super) fn fill_in(recipe: &mut Table) {
+    let edge = |from| Edge {
+        operation: Operation::Skip,
+        from,
+    };
+    let cell = Cell {
+        nodes: vec![[edge(0), edge(1)]; 4],
+    };
+    for network in NETWORKS {
+        let Some(body) = body(recipe, network) else {
+            continue;
+        };
+        if body.get("kind").and_then(Value::as_str) == Some("cells")
+            && !body.contains_key("genotype")
+        {
+            let cell = || cell.clone();
+            let genotype = match network {
+                "light" => value(&LightGenotype::from_cells([cell(), cell(), cell(), cell()])),
+                _ => value(&NormalGenotype::from_cells([cell(), cell(), cell()])),
+            };
+            body.extend(genotype.map(|genotype| ("genotype".to_owned(), genotype)));
+        }
+    }
+}
+
+/// Takes all cells out of a recipe.
+pub(crate) fn take_out(recipe: &mut Table) {
+    for network in NETWORKS {
+        if let Some(body) = body(recipe, network) {
+            body.remove("genotype");
+        }
+    }
+}
+
+fn value<T: Serialize>(genotype: &T) -> Option<Value> {
+    Value::try_from(genotype).ok()
 }
 
 fn read(path: &Path, network: &str) -> Result<Value, TrainError> {

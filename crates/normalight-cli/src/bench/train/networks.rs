@@ -1,5 +1,5 @@
 //! The networks that are timed.
-use super::median_seconds;
+use crate::bench::median_seconds;
 use anyhow::{Context, Result};
 use burn::tensor::{Device, Distribution, Tensor};
 use normalight_kernels::max_over_images;
@@ -51,6 +51,7 @@ pub(super) fn all() -> Result<Vec<Candidate>> {
         NormalBody::Cells(CellNormal {
             width,
             stem_strides: [1, 2],
+            reductions: 2,
             upsampling: Upsampling::Nearest,
             fused_convolutions: 1,
             genotype: genotype.clone(),

@@ -1,5 +1,5 @@
 //! Every operation of ours against the same made of Burn's.
-use super::median_seconds;
+use crate::bench::median_seconds;
 use burn::tensor::{Device, Distribution, Tensor};
 use normalight_kernels::{
     BatchMoments, Convolution, batch_norm, convolution, depthwise_relu, generic, max_over_images,

@@ -1,0 +1,20 @@
+//! Architecture search: a relaxed network, its bi-level optimisation, and what is derived from it.
+mod bilevel;
+mod budget;
+mod card;
+mod derive;
+mod history;
+mod learner;
+mod random;
+mod recipe;
+mod run;
+mod samples;
+mod speed;
+mod task;
+
+pub use budget::{Budget, Measure, OperationTime, OperationTimes, placements};
+pub use random::random_genotypes;
+pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};
+pub use run::{SearchRun, search};
+pub use speed::SearchStep;
+use task::SearchTask;

@@ -1,0 +1,99 @@
+//! A search from its recipe to its genotype.
+use super::card::card;
+use super::learner::{RESULT, SearchLearner};
+use super::samples::HalvesMaker;
+use super::{SearchRecipe, SearchTask};
+use crate::light_task::LightTask;
+use crate::normal_task::NormalTask;
+use crate::run::{threads, validation_pixels};
+use crate::session::{Job, Session, run_job};
+use crate::training_loop::Pace;
+use crate::{Network, Summary, TrainError, TrainEvent};
+use burn::tensor::Device;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// A search: one folder.
+#[derive(Debug, Clone)]
+pub struct SearchRun {
+    /// What to search.
+    pub recipe: SearchRecipe,
+    /// Folder for log, curves, checkpoints and the genotype; created when missing.
+    pub folder: PathBuf,
+    /// Continue from the folder's checkpoint; without one a fresh start.
+    pub resume: bool,
+    /// The command line that asks for it, for the card.
+    pub command: String,
+}
+
+/// Searches as the recipe says; `observe` as in [`train`](crate::train).
+///
+/// The folder then holds what one of a training run does, but instead of weights `genotype.json`, which training takes as
+/// it is, drawings of the cells, and the operations' weights over time as `alpha.csv` and as drawings.
+///
+/// `device` must be a plain one; gradients are switched on inside.
+///
+/// # Errors
+/// [`TrainError`], which the summary then tells, too, unless nothing has begun.
+pub fn search(
+    run: &SearchRun,
+    device: &Device,
+    mut observe: impl FnMut(TrainEvent) -> ControlFlow<()>,
+) -> Result<Summary, TrainError> {
+    run.recipe.validate()?;
+    match run.recipe.training.network {
+        Network::Light => search_network::<LightTask>(run, device, &mut observe),
+        Network::Normal => search_network::<NormalTask>(run, device, &mut observe),
+    }
+}
+
+fn search_network<T: SearchTask>(
+    run: &SearchRun,
+    device: &Device,
+    observe: &mut impl FnMut(TrainEvent) -> ControlFlow<()>,
+) -> Result<Summary, TrainError> {
+    let recipe = &run.recipe;
+    let mut learner = SearchLearner::<T>::new(recipe, device)?;
+    let training = &recipe.training;
+    let job = Job {
+        folder: run.folder.clone(),
+        resume: run.resume,
+        recipe: recipe.to_toml()?,
+        network: training.network,
+        parameters: learner.parameters(),
+        seed: training.seed,
+        pace: Pace {
+            steps: training.steps,
+            validate_every: training.validate_every,
+            checkpoint_every: training.checkpoint_every,
+            batch: training.batch,
+        },
+        result: RESULT,
+    };
+    run_job(
+        &job,
+        observe,
+        |session| go(recipe, device, &mut learner, session),
+        |summary| card(recipe, summary, &run.command),
+    )
+}
+
+fn go<T: SearchTask, O: FnMut(TrainEvent) -> ControlFlow<()>>(
+    recipe: &SearchRecipe,
+    device: &Device,
+    learner: &mut SearchLearner<'_, T>,
+    session: &mut Session<O>,
+) -> Result<ControlFlow<()>, TrainError> {
+    let training = &recipe.training;
+    // Before anything is written: a file that the recipe names may be missing.
+    let (maker, second) = HalvesMaker::<T>::open(training, device)?;
+    session.begin(learner, |_| {
+        Ok(format!(
+            "started with random weights of seed {}",
+            training.seed
+        ))
+    })?;
+    let pixels = validation_pixels(training);
+    learner.validate_on(second.validation_objects(training, pixels)?);
+    session.go(learner, &maker, threads(training))
+}
