@@ -3,7 +3,7 @@ mod common;
 
 use burn::tensor::{Device, Tensor};
 use common::{Results, check_slope, compare, random, reference, results, values};
-use normalight_kernels::{Convolution, convolution, transposed_convolution};
+use normalight_kernels::{Convolution, convolution, depthwise_relu, transposed_convolution};
 
 #[derive(Debug, Clone, Copy)]
 struct Case {
@@ -187,4 +187,32 @@ fn frozen_inputs_and_plain_devices_work() {
     let output = convolution(input, weight.clone(), Tensor::zeros([4], &training), how);
     let gradients = output.sum().backward();
     assert_eq!(values(weight.grad(&gradients).unwrap())[4], 128.0);
+}
+
+/// Gradients of the input do not depend on whether those of the weights are asked for.
+#[test]
+fn frozen_weights_change_no_other_gradient() {
+    type Operation = fn(Tensor<4>, Tensor<4>) -> Tensor<4>;
+    let convolved: Operation = |input, weight| {
+        let bias = Tensor::zeros([weight.dims()[0]], &input.device());
+        convolution(input, weight, bias, Convolution::default())
+    };
+    let depthwise: Operation = |input, weight| depthwise_relu(input, weight, 2);
+    for (channels, weight, operation) in [
+        (16, [24, 16, 3, 3], convolved),
+        (7, [5, 7, 1, 1], convolved),
+        (9, [9, 1, 5, 5], depthwise),
+    ] {
+        let device = Device::flex().autodiff();
+        let of_input = |frozen: bool| {
+            let input = random(&[2, 12, 8, channels], 1);
+            let input = Tensor::<4>::from_data(input, &device).require_grad();
+            let weight = Tensor::<4>::from_data(random(&weight, 2), &device);
+            let weight = weight.set_require_grad(!frozen);
+            let gradients = operation(input.clone(), weight.clone()).sum().backward();
+            assert_eq!(weight.grad(&gradients).is_none(), frozen);
+            values(input.grad(&gradients).unwrap())
+        };
+        assert_eq!(of_input(true), of_input(false));
+    }
 }

@@ -46,7 +46,7 @@ pub use recipe::{
 pub use run::{Devices, TrainRun, train};
 pub use search::{
     AlphaRecipe, Budget, Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun,
-    SearchSettings, placements, random_genotypes, search,
+    SearchSettings, SearchStep, placements, random_genotypes, search,
 };
 pub use session::TrainEvent;
 pub use speed::{OptimiserStep, SampleSource};

@@ -42,8 +42,8 @@ macro_rules! handed_over {
         if let (Some(node), Some(values)) = (of_input, found.input) {
             $gradients.register::<Flex>(node.id, tensor(values, &dims(&state.input)));
         }
-        if let Some(node) = of_weight {
-            $gradients.register::<Flex>(node.id, tensor(found.weight, &dims(&state.weight)));
+        if let (Some(node), Some(values)) = (of_weight, found.weight) {
+            $gradients.register::<Flex>(node.id, tensor(values, &dims(&state.weight)));
         }
         if let Some(node) = of_bias {
             let shape = [found.bias.len()];
@@ -75,6 +75,7 @@ impl Backward<Flex, 3> for ConvolutionBackward {
             gradient: gradient.storage(),
             slope: state.how.slope,
             wants_input: ops.parents[0].is_some(),
+            wants_weight: ops.parents[1].is_some(),
             wants_bias: ops.parents[2].is_some(),
         }
         .gradients();
@@ -128,6 +129,7 @@ impl Backward<Flex, 2> for DepthwiseBackward {
             input.to_contiguous().storage(),
             weight.to_contiguous().storage(),
             gradient.storage(),
+            ops.parents[1].is_some(),
         );
         let [of_input, of_weight] = ops.parents;
         if let Some(node) = of_input {

@@ -66,8 +66,8 @@ pub(crate) fn forward(
 pub(crate) struct Gradients {
     /// As the input, when asked for.
     pub(crate) input: Option<Buffer>,
-    /// `[channels_out, channels_in, size, size]`.
-    pub(crate) weight: Buffer,
+    /// `[channels_out, channels_in, size, size]`, when asked for.
+    pub(crate) weight: Option<Buffer>,
     /// `[channels_out]`.
     pub(crate) bias: Buffer,
 }
@@ -82,6 +82,7 @@ pub(crate) struct Backward<'a> {
     pub(crate) gradient: &'a [f32],
     pub(crate) slope: f32,
     pub(crate) wants_input: bool,
+    pub(crate) wants_weight: bool,
     pub(crate) wants_bias: bool,
 }
 
@@ -94,7 +95,11 @@ impl Backward<'_> {
         } else {
             channels_in_last(geometry, self.weight)
         };
-        let weights = transposed.len();
+        let weights = if self.wants_weight {
+            transposed.len()
+        } else {
+            0
+        };
         let (size_in, size_out) = (geometry.image_in(), geometry.image_out());
         let part = geometry.batch.div_ceil(PARTS).max(1);
         let parts = geometry.batch.div_ceil(part);
@@ -132,12 +137,13 @@ impl Backward<'_> {
             })
             .collect();
         let (mut of_weight, of_bias) = sum_parts(sums);
-        if by_winograd {
+        if by_winograd && self.wants_weight {
             of_weight = winograd::transform_weight_gradients(&of_weight);
         }
+        let weight = self.wants_weight;
         Gradients {
             input: of_input,
-            weight: channels_first(geometry, &of_weight),
+            weight: weight.then(|| channels_first(geometry, &of_weight)),
             bias: of_bias,
         }
     }

@@ -132,12 +132,13 @@ impl Depthwise {
         output
     }
 
-    /// Gradients of input and weight (`[channels, size, size]`).
+    /// Gradients of input and weight (`[channels, size, size]`; zeros where it is not wanted).
     pub(crate) fn backward(
         &self,
         input: &[f32],
         weight: &[f32],
         gradient: &[f32],
+        wants_weight: bool,
     ) -> (Buffer, Buffer) {
         let repeated = self.repeated(weight);
         let part = self.batch.div_ceil(PARTS).max(1);
@@ -154,14 +155,16 @@ impl Depthwise {
                     .zip(input.chunks_exact(self.image_in()))
                     .zip(gradient.chunks_exact(self.image_out()));
                 for ((of_image, image), gradient) in images {
-                    self.copy(image, &mut seen);
-                    WeightSums {
-                        depthwise: self,
-                        seen: &seen,
-                        gradient,
-                        sums: &mut sums,
+                    if wants_weight {
+                        self.copy(image, &mut seen);
+                        WeightSums {
+                            depthwise: self,
+                            seen: &seen,
+                            gradient,
+                            sums: &mut sums,
+                        }
+                        .compute();
                     }
-                    .compute();
                     self.image_gradient(image, gradient, &repeated, of_image);
                 }
                 sums

@@ -85,8 +85,8 @@ pub(crate) fn forward(
     }
 }
 
-/// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and writes those of the input
-/// unless that is empty.
+/// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and writes those of the input;
+/// where weights or input are empty, they are not wanted.
 pub(crate) fn add_gradients(
     part: &Part<'_>,
     of_weight: &mut [f32],
@@ -109,7 +109,9 @@ pub(crate) fn add_gradients(
         } else {
             gradient
         };
-        add_to_weight(geometry, image, before, of_weight);
+        if !of_weight.is_empty() {
+            add_to_weight(geometry, image, before, of_weight);
+        }
         if !of_input.is_empty() {
             let size = geometry.image_in();
             let of_image = &mut of_input[index * size..(index + 1) * size];

@@ -77,7 +77,7 @@ pub(crate) fn backward(
     let (of_weight, bias) = sum_parts(sums);
     Gradients {
         input: Some(of_input),
-        weight: channels_first(geometry, &of_weight),
+        weight: Some(channels_first(geometry, &of_weight)),
         bias,
     }
 }

@@ -142,13 +142,15 @@ mod tests {
                 gradient: &gradient,
                 slope: 0.1,
                 wants_input: true,
+                wants_weight: true,
                 wants_bias: true,
             }
             .gradients();
-            for part in [output, found.weight, found.bias] {
+            for part in [output, found.bias] {
                 all.extend_from_slice(&part);
             }
-            all.extend(found.input.iter().flat_map(|values| values.iter()));
+            let asked_for = found.input.iter().chain(&found.weight);
+            all.extend(asked_for.flat_map(|values| values.iter()));
         }
         let depthwise = Depthwise {
             batch: 2,
@@ -160,7 +162,8 @@ mod tests {
         };
         let (input, weight) = (wave(2 * depthwise.image_in(), 0.7), wave(20 * 25, 0.3));
         let output = depthwise.forward(&input, &weight);
-        let (of_input, of_weight) = depthwise.backward(&input, &weight, &wave(output.len(), 0.9));
+        let gradient = wave(output.len(), 0.9);
+        let (of_input, of_weight) = depthwise.backward(&input, &weight, &gradient, true);
         for part in [output, of_input, of_weight] {
             all.extend_from_slice(&part);
         }

@@ -235,7 +235,9 @@ fn add_block(
     );
     let mut seen = Buffer::stale(seen_at.floats());
     let mut sums = Buffer::stale(sums_at.floats());
-    gather(geometry, grid, rows.clone(), part.input, &mut seen);
+    if !of_points.is_empty() {
+        gather(geometry, grid, rows.clone(), part.input, &mut seen);
+    }
     for (index, row) in rows.clone().enumerate() {
         let kept = grid.out_rows(geometry, row);
         let line = geometry.width() * channels_out;
@@ -258,20 +260,22 @@ fn add_block(
     for point in 0..POINTS {
         let seen = &mut seen[point * seen_at.plane()..][..tiles * channels_in];
         let sums = &sums[point * sums_at.plane()..];
-        Product {
-            size: [channels_in, channels_out],
-            counts: [1, tiles],
-            left: Left {
-                values: seen,
-                row: 1,
-                steps: [0, channels_in],
-            },
-            right: Right::rows(sums, channels_out),
-            output: &mut of_points[point * channels_in * channels_out..],
-            output_row: channels_out,
-            finish: Finish::Added,
+        if !of_points.is_empty() {
+            Product {
+                size: [channels_in, channels_out],
+                counts: [1, tiles],
+                left: Left {
+                    values: seen,
+                    row: 1,
+                    steps: [0, channels_in],
+                },
+                right: Right::rows(sums, channels_out),
+                output: &mut of_points[point * channels_in * channels_out..],
+                output_row: channels_out,
+                finish: Finish::Added,
+            }
+            .compute();
         }
-        .compute();
         if of_input.is_empty() {
             continue;
         }

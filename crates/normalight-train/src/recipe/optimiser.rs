@@ -81,7 +81,7 @@ impl Default for OptimiserRecipe {
 }
 
 impl OptimiserRecipe {
-    pub(super) fn validate(&self) -> Result<(), TrainError> {
+    pub(crate) fn validate(&self) -> Result<(), TrainError> {
         let field = "optimiser.learning_rate";
         check(field, self.learning_rate, 1e-9, 1.0, "above 0, at most 1")?;
         let below_one = 1.0 - f32::EPSILON;

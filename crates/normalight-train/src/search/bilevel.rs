@@ -153,9 +153,13 @@ impl ModuleMapper for Shifter<'_> {
         };
         let tensor = param.val();
         let (shape, device, dtype) = (tensor.dims(), tensor.device(), tensor.dtype());
-        let values = tensor.detach().into_data().iter::<f64>().zip(direction);
-        let values = values.map(|(value, step)| value + self.factor * step);
-        let data = TensorData::new(values.collect::<Vec<_>>(), shape).convert_dtype(dtype);
+        let before = tensor.detach().into_data();
+        let values: Vec<f64> = before
+            .iter::<f64>()
+            .zip(direction)
+            .map(|(value, step)| value + self.factor * step)
+            .collect();
+        let data = TensorData::new(values, shape).convert_dtype(dtype);
         let moved = Tensor::from_data(data, (&device, dtype));
         Param::initialized(param.id, moved.require_grad())
     }

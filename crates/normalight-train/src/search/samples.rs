@@ -1,8 +1,12 @@
-use crate::TrainError;
 use crate::batch::Batch;
 use crate::loader::BatchMaker;
+use crate::predicted::Predictor;
 use crate::samples::SampleMaker;
+use crate::source::Source;
 use crate::task::Task;
+use crate::{TrainError, TrainRecipe};
+use burn::tensor::Device;
+use std::sync::Arc;
 
 /// What a search takes in at one step: a batch of either half of the data.
 pub(super) struct Halves {
