@@ -1,4 +1,8 @@
 //! What the commands take; these comments are their help.
+mod search;
+
+pub(crate) use search::{CompareArgs, SearchArgs, SearchCommand, SearchCommands};
+
 use crate::choices::{
     BitsChoice, ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, NetworkChoice,
 };
@@ -28,6 +32,8 @@ pub(crate) enum Command {
     Estimate(EstimateArgs),
     /// Train one of the two networks on rendered samples.
     Train(TrainArgs),
+    /// Search for the cells of one of the two networks, and compare what was found.
+    Search(SearchCommands),
     /// Draw synthetic stacks with known lights and normals.
     Render(RenderArgs),
     /// Measure the speed of parts of the program on this machine.

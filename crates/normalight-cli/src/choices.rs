@@ -3,7 +3,7 @@ use clap::ValueEnum;
 use normalight_core::Decoding;
 use normalight_io::{ColorMode, NormalFormat};
 use normalight_synth::BitDepth;
-use normalight_train::Network;
+use normalight_train::{Equal, Network};
 
 /// Where to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -74,6 +74,15 @@ pub(crate) enum NetworkChoice {
     Normal,
 }
 
+/// What is the same for all networks that are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EqualChoice {
+    /// Work of the network, and steps of its training.
+    MultiplyAdds,
+    /// Work of the network, and time of its training: where a step takes longer there are fewer.
+    TrainingTime,
+}
+
 impl From<ColorChoice> for ColorMode {
     fn from(choice: ColorChoice) -> Self {
         match choice {
@@ -107,6 +116,15 @@ impl From<NetworkChoice> for Network {
         match choice {
             NetworkChoice::Light => Network::Light,
             NetworkChoice::Normal => Network::Normal,
+        }
+    }
+}
+
+impl From<EqualChoice> for Equal {
+    fn from(choice: EqualChoice) -> Self {
+        match choice {
+            EqualChoice::MultiplyAdds => Equal::MultiplyAdds,
+            EqualChoice::TrainingTime => Equal::TrainingTime,
         }
     }
 }

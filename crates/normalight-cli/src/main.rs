@@ -1,4 +1,4 @@
-//! The command `normalight`: photographs in, lights and normals out; rendering, training, evaluation.
+//! The command `normalight`: photographs in, lights and normals out; rendering, training, search, evaluation.
 
 mod args;
 mod bench;
@@ -7,10 +7,12 @@ mod device;
 mod estimate;
 mod evaluate;
 mod interrupt;
+mod monitor;
 mod outputs;
 mod progress;
 mod render;
 mod scenes;
+mod search;
 mod search_recipe;
 mod settings;
 mod table;
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
     let outcome = interrupt::listen().and_then(|()| match &arguments.command {
         Command::Estimate(args) => estimate::run(args),
         Command::Train(args) => train::run(args),
+        Command::Search(args) => search::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Render(args) => render::run(args),
         Command::Bench(args) => bench::run(args),

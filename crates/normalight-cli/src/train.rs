@@ -2,13 +2,11 @@
 use crate::Outcome;
 use crate::args::TrainArgs;
 use crate::choices::word;
+use crate::monitor::Monitor;
 use crate::terminal::{note, print};
-use crate::{device, interrupt, progress};
+use crate::{device, interrupt};
 use anyhow::{Context, Result, bail};
-use indicatif::ProgressBar;
-use normalight_train::{
-    Devices, RunState, StepReport, Summary, TrainError, TrainEvent, TrainRecipe, TrainRun, train,
-};
+use normalight_train::{Devices, RunState, Summary, TrainError, TrainRecipe, TrainRun, train};
 use std::path::{Path, PathBuf};
 
 /// Trains until the recipe's last step or Ctrl-C.
@@ -23,7 +21,7 @@ pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
             word(args.network)
         ));
     }
-    let mut monitor = Monitor::new(&recipe, args.quiet);
+    let mut monitor = Monitor::new(recipe.steps, recipe.batch, args.quiet);
     let run = TrainRun {
         recipe,
         folder: args.run.clone(),
@@ -34,7 +32,7 @@ pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
         monitor.show(event);
         interrupt::answer()
     })?;
-    monitor.bar.finish_and_clear();
+    drop(monitor);
     if summary.state != RunState::Finished {
         if !args.quiet {
             note("checkpoint written; continue with --resume");
@@ -77,67 +75,18 @@ fn recipe(args: &TrainArgs) -> Result<TrainRecipe> {
 
 /// What a person wants to know at the end.
 fn result(summary: &Summary, weights: &Path) -> String {
+    format!("{}weights: {}\n", in_words(summary), weights.display())
+}
+
+/// Error and hours of a run.
+pub(crate) fn in_words(summary: &Summary) -> String {
     let best = match &summary.best {
         Some(best) => format!("{:.2} degrees at step {}", best.degrees, best.step),
         None => "none".to_owned(),
     };
     let waited = 100.0 * summary.hours_waited / summary.hours.max(1e-12);
     format!(
-        "best validation error: {best}\nhours: {:.2} ({waited:.0} % waiting for samples)\n\
-         weights: {}\n",
-        summary.hours,
-        weights.display()
+        "best validation error: {best}\nhours: {:.2} ({waited:.0} % waiting for samples)\n",
+        summary.hours
     )
-}
-
-/// Shows how the training goes: a bar on a terminal, a line for each validation elsewhere.
-struct Monitor {
-    bar: ProgressBar,
-    quiet: bool,
-    batch: usize,
-    validation: Option<f32>,
-    begun: bool,
-}
-
-impl Monitor {
-    fn new(recipe: &TrainRecipe, quiet: bool) -> Self {
-        let template = "[{bar:30}] {pos}/{len}  {msg}  {eta} left";
-        Self {
-            bar: progress::bar(recipe.steps as u64, template, quiet),
-            quiet,
-            batch: recipe.batch,
-            validation: None,
-            begun: false,
-        }
-    }
-
-    fn show(&mut self, event: TrainEvent) {
-        match event {
-            TrainEvent::Step(report) => self.step(report),
-            TrainEvent::Note(text) if !self.quiet => self.bar.suspend(|| note(&text)),
-            TrainEvent::Note(_) => {}
-        }
-    }
-
-    fn step(&mut self, report: StepReport) {
-        self.bar.set_position(report.step as u64);
-        if !self.begun {
-            // Steps of an earlier run must not count for the speed.
-            self.bar.reset_eta();
-            self.begun = true;
-        }
-        self.validation = report.validation.or(self.validation);
-        let speed = self.bar.per_sec() * self.batch as f64;
-        let best = report
-            .best
-            .map_or(String::new(), |best| format!(" (best {best:.2})"));
-        let validation = self.validation.map_or(String::new(), |error| {
-            format!("  validation {error:.2}{best} degrees")
-        });
-        let line = format!("loss {:.4}{validation}  {speed:.1} samples/s", report.loss);
-        if report.validation.is_some() && self.bar.is_hidden() && !self.quiet {
-            note(&format!("step {}  {line}", report.step));
-        }
-        self.bar.set_message(line);
-    }
 }

@@ -45,8 +45,9 @@ pub use recipe::{
 };
 pub use run::{Devices, TrainRun, train};
 pub use search::{
-    AlphaRecipe, Budget, Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun,
-    SearchSettings, SearchStep, placements, random_genotypes, search,
+    AlphaRecipe, Budget, CompareEvent, CompareRun, Compared, Comparison, EntryKind, Equal, Group,
+    Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun, SearchSettings,
+    SearchStep, SeedResult, compare, placements, random_genotypes, search,
 };
 pub use session::TrainEvent;
 pub use speed::{OptimiserStep, SampleSource};

@@ -2,6 +2,7 @@
 mod bilevel;
 mod budget;
 mod card;
+mod compare;
 mod derive;
 mod history;
 mod learner;
@@ -13,6 +14,9 @@ mod speed;
 mod task;
 
 pub use budget::{Budget, Measure, OperationTime, OperationTimes, placements};
+pub use compare::{
+    CompareEvent, CompareRun, Compared, Comparison, EntryKind, Equal, Group, SeedResult, compare,
+};
 pub use random::random_genotypes;
 pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};
 pub use run::{SearchRun, search};
