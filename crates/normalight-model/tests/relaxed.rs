@@ -75,7 +75,7 @@ fn output(network: &NormalNetwork, device: &Device) -> Vec<f32> {
     let input = Tensor::<4>::from_data(TensorData::new(values, [2, 16, 16, 6]), device);
     let features = network.features(input);
     let fused = normalight_kernels::max_over_images(features, 1);
-    network.regress(fused).into_data().to_vec::<f32>().unwrap()
+    network.regress(fused).into_data().try_to_vec::<f32>().unwrap()
 }
 
 /// With nearly all weight on one operation a relaxed network is the network of that operation.
@@ -164,7 +164,7 @@ fn expected_cost_of_a_choice_is_its_cost() {
         let found = relaxation
             .expected_cost(&costs)
             .into_data()
-            .to_vec::<f32>()
+            .try_to_vec::<f32>()
             .unwrap()[0];
         let parameters = |operation| {
             let NormalBody::Cells(mut cells) = architecture.body.clone() else {

@@ -1,6 +1,7 @@
 //! Memory that is used again: a training step asks for the same buffers as the one before it, and fresh pages from
 //! the system would cost more than many of the operations that fill them.
 use burn_std::{AccessError, AccessPolicy, AllocationController, AllocationProperty, Bytes};
+use std::collections::BTreeMap;
 use std::mem::MaybeUninit;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, PoisonError};
@@ -21,37 +22,35 @@ const KEPT: usize = if cfg!(target_family = "wasm") {
 
 /// Buffers given back.
 struct Unused {
-    /// The smallest first.
-    buffers: Vec<Vec<Line>>,
+    /// By their number of lines; of a size the last one given back comes first, as it may still be in the cache.
+    stacks: BTreeMap<usize, Vec<Vec<Line>>>,
     /// Lines of all.
     total: usize,
 }
 
 static UNUSED: Mutex<Unused> = Mutex::new(Unused {
-    buffers: Vec::new(),
+    stacks: BTreeMap::new(),
     total: 0,
 });
 
 impl Unused {
     /// One of at least that many lines; a much larger one is better kept for those who need it.
     fn take(&mut self, needed: usize) -> Option<Vec<Line>> {
-        let first = self.buffers.partition_point(|lines| lines.len() < needed);
-        let fits = self.buffers.get(first)?.len() <= 2 * needed + 64;
-        let lines = fits.then(|| self.buffers.remove(first))?;
+        let fitting = self.stacks.range_mut(needed..=2 * needed + 64);
+        let lines = fitting.filter_map(|(_, stack)| stack.pop()).next()?;
         self.total -= lines.len();
         Some(lines)
     }
 
     fn put(&mut self, lines: Vec<Line>) {
         self.total += lines.len();
-        let place = self
-            .buffers
-            .partition_point(|other| other.len() < lines.len());
-        self.buffers.insert(place, lines);
-        while self.total > KEPT
-            && let Some(largest) = self.buffers.pop()
-        {
-            self.total -= largest.len();
+        self.stacks.entry(lines.len()).or_default().push(lines);
+        while self.total > KEPT {
+            // The largest.
+            match self.stacks.pop_last() {
+                Some((size, stack)) => self.total -= size * stack.len(),
+                None => break,
+            }
         }
     }
 }
