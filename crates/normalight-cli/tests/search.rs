@@ -108,8 +108,8 @@ fn networks_are_compared_once() {
     assert!(before == tree(&run));
 
     // Another comparison in the same folder is none.
-    let message = ["compare.multiply_adds was", "is 2000000"];
-    fails(ask(&["--multiply-adds", "2000000"]), &message);
+    let message = ["compare.multiply_adds was", "is 9000000"];
+    fails(ask(&["--multiply-adds", "9000000"]), &message);
     assert!(before == tree(&run));
     // A third seed is added to the first two.
     said(compare(
@@ -125,6 +125,44 @@ fn networks_are_compared_once() {
     for (file, bytes) in kept {
         assert!(now[file] == *bytes, "{}", file.display());
     }
+}
+
+/// Stopped in its second training, a comparison keeps the first and goes on with the second.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_comparison_goes_on_where_it_was() {
+    let place = tempfile::tempdir().unwrap();
+    let run = place.path().join("run");
+    let file = recipe(place.path(), "checkpoint_every = 5\n");
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, text.replace("steps = 2\n", "steps = 400\n")).unwrap();
+    let ask = || compare(&[], &file, &run, &["--plain", "--seeds", "2"]);
+    let nothing = std::process::Stdio::null;
+    let mut stopped = ask();
+    stopped.stdout(nothing()).stderr(nothing());
+    let mut child = stopped.spawn().unwrap();
+    while !run.join("plain-s2/checkpoint.safetensors").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let result = || read_json(&run.join("compare.json"));
+    let stopped = result();
+    assert_eq!(stopped["state"], "interrupted");
+    let seeds = |result: &Value| result["entries"][0]["seeds"].as_array().unwrap().clone();
+    assert_eq!(seeds(&stopped).len(), 1);
+    let first = tree(&run.join("plain-s1"));
+    said(ask());
+    assert!(first == tree(&run.join("plain-s1")));
+    let done = result();
+    assert_eq!(done["state"], "finished");
+    assert_eq!(seeds(&done)[0], seeds(&stopped)[0]);
+    assert_eq!(seeds(&done).len(), 2);
+    let log = std::fs::read_to_string(run.join("plain-s2/log.txt")).unwrap();
+    assert!(log.contains("continued after step"), "{log}");
 }
 
 /// Trainings of equal time: measured once, even if what was measured would differ.

@@ -1,6 +1,6 @@
 //! Recipes as text.
 
-use normalight_synth::{Preset, Renderer, SceneRecipe, SynthError};
+use normalight_synth::{Framing, Preset, Renderer, SceneRecipe, SynthError};
 use std::path::Path;
 
 fn parsed(text: &str) -> SceneRecipe {
@@ -126,4 +126,43 @@ fn broken_meshes_are_named() {
         assert!(error.contains(name), "{error}");
         std::fs::remove_file(path).unwrap();
     }
+}
+
+/// Each half shows the meshes of its own: the same samples as from a folder that holds no others.
+#[test]
+fn halves_share_no_mesh() {
+    let box_of = |height: f32| {
+        let corners = (0..8).map(|corner: usize| {
+            let at = |bit: usize| if corner >> bit & 1 == 1 { 1.0 } else { -1.0f32 };
+            format!("v {} {} {}\n", at(0), height * at(1), at(2))
+        });
+        let faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+        corners.collect::<String>() + faces
+    };
+    let recipe = |folder: &std::path::Path| {
+        let mut recipe = Preset::World.recipe();
+        // Nothing else, nearly.
+        recipe.shapes.mesh = 1e6;
+        recipe.shapes.mesh_folder = Some(folder.to_owned());
+        recipe
+    };
+    let both = tempfile::tempdir().unwrap();
+    let alone = [1.0, 3.0].map(|height| {
+        let folder = tempfile::tempdir().unwrap();
+        let name = format!("box{height}.obj");
+        for place in [&both, &folder] {
+            std::fs::write(place.path().join(&name), box_of(height)).unwrap();
+        }
+        folder
+    });
+    let halves = Renderer::halves(recipe(both.path())).unwrap();
+    let sample = |renderer: &Renderer| renderer.sample(7, 3, 32, Framing::WholeObject).normals;
+    let found = halves.each_ref().map(sample);
+    let expected = alone
+        .each_ref()
+        .map(|folder| sample(&Renderer::new(recipe(folder.path())).unwrap()));
+    assert_eq!(found, expected);
+    assert_ne!(found[0], found[1]);
+    let error = Renderer::halves(recipe(alone[0].path())).err().unwrap();
+    assert!(error.to_string().contains("1 found, 2 or more"), "{error}");
 }

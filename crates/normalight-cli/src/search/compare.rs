@@ -4,9 +4,9 @@ use crate::args::CompareArgs;
 use crate::monitor::Monitor;
 use crate::terminal::{note, print};
 use crate::{Outcome, device, interrupt};
-use anyhow::Result;
+use anyhow::{Context, Result};
 use normalight_train::{
-    CompareEvent, CompareRun, Comparison, RunState, SeedResult, TrainEvent, TrainRecipe, compare,
+    CompareEvent, CompareRun, RunState, SeedResult, TrainError, TrainEvent, TrainRecipe, compare,
 };
 
 /// Trains everything until the last step of the last one, or Ctrl-C.
@@ -27,10 +27,17 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
         command: std::env::args().collect::<Vec<_>>().join(" "),
     };
     let mut watch = Watch::new(args.quiet);
-    let comparison: Comparison = compare(&run, &device, |event| {
+    let compared = compare(&run, &device, |event| {
         watch.show(event);
         interrupt::answer()
-    })?;
+    });
+    let comparison = match compared {
+        // Of the schedule, whose file it does not name.
+        Err(error @ TrainError::Value { .. }) => {
+            return Err(error).with_context(|| args.recipe.display().to_string());
+        }
+        compared => compared?,
+    };
     drop(watch);
     if !args.quiet {
         print(&comparison.to_text())?;

@@ -132,16 +132,19 @@ mod tests {
                 "[search.budget]\nmeasure = \"parameters\"\ntarget = {target}\nweight = 1.0\n"
             ))
         };
-        let costs = Costs::of(&budget(3000.0)).unwrap().unwrap();
+        let costs = Costs::of(&budget(1.0)).unwrap().unwrap();
         let space = SearchSpace::default();
         let cost = |genotype: &Genotypes| {
             let cells = genotype.normal.as_ref().unwrap().cells().map(Clone::clone);
             costs.of_cells(&space, &cells)
         };
-        let free = random_genotypes(&recipe(""), 50).unwrap();
-        assert!(free.iter().any(|one| cost(one) > 3000.0));
-        let bound = random_genotypes(&budget(3000.0), 50).unwrap();
-        assert!(bound.iter().all(|one| cost(one) <= 3000.0));
+        let free = random_genotypes(&recipe(""), 51).unwrap();
+        let mut found: Vec<f64> = free.iter().map(cost).collect();
+        found.sort_by(f64::total_cmp);
+        // Half of the free ones cost more.
+        let bound = random_genotypes(&budget(found[25]), 50).unwrap();
+        assert!(bound.iter().all(|one| cost(one) <= found[25]));
+        assert!(bound.iter().any(|one| cost(one) > found[0]));
         let error = random_genotypes(&budget(1.0), 1).unwrap_err().to_string();
         assert!(error.contains("search.budget.target"), "{error}");
     }

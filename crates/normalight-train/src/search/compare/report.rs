@@ -195,8 +195,8 @@ impl Comparison {
             let operations: Vec<_> = operations
                 .map(|(operation, count)| format!("{count} {operation}"))
                 .collect();
-            text += &format!(
-                "{:column$} {:>7} {:>7} {:6} {:6} {:11} {:12.2}M {:7} {:>7}  {}\n",
+            let line = format!(
+                "{:column$} {:>7} {:>7} {:6} {:6} {:11} {:12.2}M {:7} {:>7}  {}",
                 one.name,
                 number(one.mean, 2),
                 number(one.spread, 2),
@@ -208,6 +208,8 @@ impl Comparison {
                 number(one.hours, 3),
                 operations.join(", ")
             );
+            text += line.trim_end();
+            text.push('\n');
         }
         for group in &self.groups {
             text += &format!(

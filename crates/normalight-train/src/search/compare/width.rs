@@ -125,8 +125,9 @@ mod tests {
 
     fn paper() -> Entry {
         Entry {
+            name: "paper".to_owned(),
+            random: false,
             body: Body::Cells(Box::new(paper_genotypes())),
-            ..Entry::plain()
         }
     }
 
@@ -139,7 +140,7 @@ mod tests {
             ("normal", Entry::plain(), 1),
         ] {
             let recipe = recipe(network);
-            for target in [6_000_000, 20_000_000, 77_000_000] {
+            for target in [40_000_000, 77_000_000, 300_000_000] {
                 let fitted = fitted(&recipe, &entry, target).unwrap();
                 let missed = multiply_adds(&fitted).abs_diff(target);
                 let chosen = width(&fitted);
