@@ -4,6 +4,7 @@ mod budget;
 mod card;
 mod compare;
 mod derive;
+mod drawing;
 mod history;
 mod learner;
 mod random;
