@@ -109,7 +109,7 @@ impl Relaxation {
         let first = |node: usize| (0..node).map(|before| 2 + before).sum::<usize>();
         let rows = nodes.map(|node| {
             let row = first(node)..first(node) + 2 + node;
-            activation::softmax(all.clone().slice([row]), 0)
+            activation::softmax(all.clone().slice(row), 0)
         });
         Tensor::cat(rows.collect(), 0)
     }
@@ -138,7 +138,7 @@ impl Relaxation {
                 }
                 let share = shares
                     .as_ref()
-                    .map(|shares| shares.clone().slice([edge..edge + 1]));
+                    .map(|shares| shares.clone().narrow(0, edge, 1));
                 EdgeWeights {
                     operations: weights,
                     share,

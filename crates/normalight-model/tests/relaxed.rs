@@ -75,7 +75,11 @@ fn output(network: &NormalNetwork, device: &Device) -> Vec<f32> {
     let input = Tensor::<4>::from_data(TensorData::new(values, [2, 16, 16, 6]), device);
     let features = network.features(input);
     let fused = normalight_kernels::max_over_images(features, 1);
-    network.regress(fused).into_data().try_to_vec::<f32>().unwrap()
+    network
+        .regress(fused)
+        .into_data()
+        .try_to_vec::<f32>()
+        .unwrap()
 }
 
 /// With nearly all weight on one operation a relaxed network is the network of that operation.

@@ -86,7 +86,12 @@ fn a_resumed_search_finds_the_same_cells() {
         assert_eq!([before, after].concat(), all, "{name}");
         assert_eq!(second.best, summary.best, "{name}");
         let (straight, broken) = (contents(straight.path()), contents(broken.path()));
-        for file in ["genotype.json", "alpha.csv"] {
+        for file in [
+            "genotype.json",
+            "alpha.csv",
+            "cell-feature_normal.svg",
+            "alpha-feature_reduction.svg",
+        ] {
             assert!(straight[file] == broken[file], "{name}: {file}");
         }
         let json = std::str::from_utf8(&broken["genotype.json"]).unwrap();

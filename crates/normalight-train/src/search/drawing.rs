@@ -1,5 +1,4 @@
 //! Pictures of a search: derived cells as graphs, and the weights that led to them.
-#![allow(dead_code)] // Goes away with the first caller.
 
 mod cell;
 mod layers;

@@ -1,6 +1,7 @@
 use super::bilevel::{first_order, is_alpha, second_order};
 use super::budget::Costs;
 use super::derive::derive;
+use super::drawing::{cell_svg, weights_svg};
 use super::history::History;
 use super::samples::Halves;
 use super::{Order, SearchRecipe, SearchTask};
@@ -231,7 +232,15 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
 
     fn drawings(&self) -> Vec<(String, Vec<u8>)> {
         let csv = self.history.to_csv(&self.space, T::CELLS);
-        vec![("alpha.csv".to_owned(), csv.into_bytes())]
+        let mut files = vec![("alpha.csv".to_owned(), csv.into_bytes())];
+        let network = self.recipe.training.network.name();
+        for (index, (name, cell)) in T::CELLS.iter().zip(self.cells()).enumerate() {
+            let title = format!("{network} network, {} cell", name.replace('_', " "));
+            files.push((format!("cell-{name}.svg"), cell_svg(&title, &cell)));
+            let weights = weights_svg(&title, &self.space, &self.history.of(index));
+            files.push((format!("alpha-{name}.svg"), weights));
+        }
+        files
     }
 
     fn state(&self) -> NamedTensors {
