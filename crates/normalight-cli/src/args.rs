@@ -1,7 +1,7 @@
 //! What the commands take; these comments are their help.
 mod search;
 
-pub(crate) use search::{CompareArgs, SearchArgs, SearchCommand, SearchCommands};
+pub(crate) use search::{CompareArgs, DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
 
 use crate::choices::{
     BitsChoice, ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, NetworkChoice,

@@ -1,7 +1,8 @@
 //! `normalight search`.
 mod compare;
 
-use crate::args::{SearchArgs, SearchCommand, SearchCommands};
+use crate::args::{DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
+use crate::choices::DeviceChoice;
 use crate::monitor::Monitor;
 use crate::terminal::{note, print};
 use crate::train::in_words;
@@ -9,7 +10,7 @@ use crate::{Outcome, device, interrupt, search_recipe};
 use anyhow::{Context, Result, bail};
 use normalight_io::write_files;
 use normalight_train::{
-    Network, RunState, SearchRecipe, SearchRun, TrainError, random_genotypes, search,
+    Network, RunState, SearchRecipe, SearchRun, TrainError, derive_again, random_genotypes, search,
 };
 use std::io::ErrorKind;
 use std::path::Path;
@@ -19,6 +20,7 @@ pub(crate) fn run(args: &SearchCommands) -> Result<Outcome> {
     match &args.what {
         SearchCommand::Light(args) => run_network(args, Network::Light),
         SearchCommand::Normal(args) => run_network(args, Network::Normal),
+        SearchCommand::Derive(args) => derive(args),
         SearchCommand::Compare(args) => compare::run(args),
     }
 }
@@ -71,6 +73,14 @@ fn find(args: &SearchArgs, recipe: SearchRecipe) -> Result<Outcome> {
             genotype.display()
         ))?;
     }
+    Ok(Outcome::Done)
+}
+
+/// Writes what the last checkpoint of a search speaks for.
+fn derive(args: &DeriveArgs) -> Result<Outcome> {
+    let device = device::open(DeviceChoice::Cpu)?.device;
+    let files = derive_again(&args.run, args.most_skips, &device)?;
+    write_files(&args.out, &files)?;
     Ok(Outcome::Done)
 }
 

@@ -47,7 +47,7 @@ pub use run::{Devices, TrainRun, train};
 pub use search::{
     AlphaRecipe, Budget, CompareEvent, CompareRun, Compared, Comparison, EntryKind, Equal, Group,
     Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun, SearchSettings,
-    SearchStep, SeedResult, compare, placements, random_genotypes, search,
+    SearchStep, SeedResult, compare, derive_again, placements, random_genotypes, search,
 };
 pub use session::TrainEvent;
 pub use speed::{OptimiserStep, SampleSource};

@@ -20,6 +20,6 @@ pub use compare::{
 };
 pub use random::random_genotypes;
 pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};
-pub use run::{SearchRun, search};
+pub use run::{SearchRun, derive_again, search};
 pub use speed::SearchStep;
 use task::SearchTask;

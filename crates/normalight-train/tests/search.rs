@@ -5,7 +5,8 @@ use burn::tensor::Device;
 use common::{LIGHT, NORMAL, contents, text, whole};
 use normalight_model::Genotypes;
 use normalight_train::{
-    RunState, SearchRecipe, SearchRun, Summary, TrainError, TrainEvent, TrainRecipe, search,
+    RunState, SearchRecipe, SearchRun, Summary, TrainError, TrainEvent, TrainRecipe, derive_again,
+    search,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -108,6 +109,28 @@ fn a_resumed_search_finds_the_same_cells() {
             assert!(recipe.search.most_skips.is_none_or(|most| skips <= most));
         }
     }
+}
+
+/// A cap only decides what is chosen: choosing again gives what a search with that cap finds.
+#[test]
+fn cells_can_be_chosen_again_with_another_cap() {
+    let place = tempfile::tempdir().unwrap();
+    let free = recipe(&kinds()[0].1);
+    let mut capped = free.clone();
+    capped.search.most_skips = Some(0);
+    for (name, recipe) in [("free", &free), ("capped", &capped)] {
+        run(&place.path().join(name), recipe, false, None).unwrap();
+    }
+    let device = Device::flex();
+    let again = derive_again(&place.path().join("free"), Some(0), &device).unwrap();
+    let expected = contents(&place.path().join("capped"));
+    assert_eq!(again.len(), 1 + 1 + 2 * 3);
+    for (name, content) in again {
+        assert!(expected[&name] == content, "{name}");
+    }
+    let genotype = text(&place.path().join("capped"), "genotype.json");
+    assert!(!genotype.contains("skip"), "{genotype}");
+    assert!(derive_again(&place.path().join("gone"), None, &device).is_err());
 }
 
 #[test]

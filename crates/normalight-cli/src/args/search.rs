@@ -15,6 +15,8 @@ pub(crate) enum SearchCommand {
     Light(SearchArgs),
     /// Search for the cells of the normal network.
     Normal(SearchArgs),
+    /// Choose the cells of a search again, with another cap on skips, and draw them.
+    Derive(DeriveArgs),
     /// Train found, random and plain networks for the same short schedule and compare their errors.
     Compare(CompareArgs),
 }
@@ -57,6 +59,22 @@ pub(crate) struct SearchArgs {
     /// Show no progress and no summary.
     #[arg(long)]
     pub(crate) quiet: bool,
+}
+
+/// Chooses the cells of a search again, with another cap on skips, and draws them.
+///
+/// The cap decides only what is chosen, not how the search goes, so nothing is searched again.
+#[derive(Debug, Args)]
+pub(crate) struct DeriveArgs {
+    /// Folder of the search.
+    #[arg(value_name = "RUN")]
+    pub(crate) run: PathBuf,
+    /// Most skips in a cell; any number where missing.
+    #[arg(long, value_name = "N")]
+    pub(crate) most_skips: Option<usize>,
+    /// Folder for genotype.json, alpha.csv and the drawings; made when missing.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
 }
 
 const SEARCH_EXAMPLES: &str = "\

@@ -3,6 +3,8 @@ use super::card::card;
 use super::learner::{RESULT, SearchLearner};
 use super::samples::HalvesMaker;
 use super::{SearchRecipe, SearchTask};
+use crate::checkpoint;
+use crate::learner::Learner;
 use crate::light_task::LightTask;
 use crate::normal_task::NormalTask;
 use crate::run::{threads, validation_pixels};
@@ -11,7 +13,7 @@ use crate::training_loop::Pace;
 use crate::{Network, Summary, TrainError, TrainEvent};
 use burn::tensor::Device;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A search: one folder.
 #[derive(Debug, Clone)]
@@ -45,6 +47,44 @@ pub fn search(
         Network::Light => search_network::<LightTask>(run, device, &mut observe),
         Network::Normal => search_network::<NormalTask>(run, device, &mut observe),
     }
+}
+
+/// What a search would have found with another cap on skips, or none: from the weights of its last checkpoint, without
+/// searching again. Files by name: `genotype.json` and the drawings.
+///
+/// # Errors
+/// Files of the run that are missing or broken; a cap that the recipe's operations cannot keep.
+pub fn derive_again(
+    folder: &Path,
+    most_skips: Option<usize>,
+    device: &Device,
+) -> Result<Vec<(String, Vec<u8>)>, TrainError> {
+    let mut recipe = SearchRecipe::read(&folder.join("recipe.toml"))?;
+    recipe.search.most_skips = most_skips;
+    recipe.validate()?;
+    match recipe.training.network {
+        Network::Light => derived::<LightTask>(&recipe, folder, device),
+        Network::Normal => derived::<NormalTask>(&recipe, folder, device),
+    }
+}
+
+fn derived<T: SearchTask>(
+    recipe: &SearchRecipe,
+    folder: &Path,
+    device: &Device,
+) -> Result<Vec<(String, Vec<u8>)>, TrainError> {
+    let mut learner = SearchLearner::<T>::new(recipe, device)?;
+    let loaded = checkpoint::load(folder)?;
+    learner
+        .restore(loaded.tensors, loaded.standing.step)
+        .map_err(|reason| TrainError::Checkpoint {
+            path: loaded.path,
+            reason,
+        })?;
+    let genotype = learner.result()?.unwrap_or_default();
+    let mut files = vec![(RESULT.to_owned(), genotype)];
+    files.extend(learner.drawings());
+    Ok(files)
 }
 
 fn search_network<T: SearchTask>(
