@@ -128,7 +128,9 @@ impl SearchSettings {
         check(field, self.auxiliary_skip_last, 0.0, 10.0, "0 to 10")?;
         let field = "search.auxiliary_skip";
         check(field, self.auxiliary_skip, 0.0, 10.0, "0 to 10")?;
-        if self.auxiliary_skip.max(self.auxiliary_skip_last) > 0.0 && !self.operations.contains(&Operation::Skip) {
+        if self.auxiliary_skip.max(self.auxiliary_skip_last) > 0.0
+            && !self.operations.contains(&Operation::Skip)
+        {
             return Err(TrainError::Value {
                 field,
                 found: self.auxiliary_skip.to_string(),
