@@ -13,8 +13,7 @@ pub(super) fn card(recipe: &SearchRecipe, summary: &Summary, command: &str) -> S
     let operations: Vec<_> = search.operations.iter().map(|one| one.name()).collect();
     let mut cures = Vec::new();
     if search.auxiliary_skip > 0.0 {
-        let (first, last) = (search.auxiliary_skip, search.auxiliary_skip_last);
-        cures.push(format!("auxiliary skip from {first} to {last}"));
+        cures.push(format!("auxiliary skip from {}", search.auxiliary_skip));
     }
     if search.channel_divisor > 1 {
         cures.push(format!("one in {} channels", search.channel_divisor));

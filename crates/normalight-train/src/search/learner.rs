@@ -80,12 +80,10 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
         self.network.num_params()
     }
 
-    /// Weight of the auxiliary skip at a step (Chu et al. 2021).
+    /// Weight of the auxiliary skip at a step: from the recipe's to zero along a line (Chu et al. 2021).
     fn auxiliary_skip(&self, step: usize) -> f32 {
         let done = step as f32 / self.recipe.training.steps as f32;
-        let search = &self.recipe.search;
-        let (first, last) = (search.auxiliary_skip, search.auxiliary_skip_last);
-        (first + (last - first) * done.min(1.0)).max(0.0)
+        self.recipe.search.auxiliary_skip * (1.0 - done).max(0.0)
     }
 
     fn loss(&self, network: &T::Network, batch: &Batch) -> Tensor<1> {

@@ -28,10 +28,8 @@ pub struct SearchSettings {
     /// One in so many channels goes through the operations (partial channels, PC-DARTS: 4); then edges are
     /// weighted, too. 1: all channels do.
     pub channel_divisor: usize,
-    /// Weight of an auxiliary skip on every edge at the first step (DARTS-); 0: none.
+    /// Weight of an auxiliary skip on every edge at the first step, falling to zero along a line (DARTS-); 0: none.
     pub auxiliary_skip: f32,
-    /// Its weight at the last step, reached along a line; DARTS- has 0.
-    pub auxiliary_skip_last: f32,
     /// Most skips in a derived cell; any number where missing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub most_skips: Option<usize>,
@@ -102,7 +100,6 @@ impl Default for SearchSettings {
             nodes: space.nodes,
             channel_divisor: space.channel_divisor,
             auxiliary_skip: 1.0,
-            auxiliary_skip_last: 0.0,
             most_skips: None,
             order: Order::First,
             warm_up: 0,
@@ -124,13 +121,9 @@ impl SearchSettings {
 
     fn validate(&self, steps: usize) -> Result<(), TrainError> {
         self.space().validate()?;
-        let field = "search.auxiliary_skip_last";
-        check(field, self.auxiliary_skip_last, 0.0, 10.0, "0 to 10")?;
         let field = "search.auxiliary_skip";
         check(field, self.auxiliary_skip, 0.0, 10.0, "0 to 10")?;
-        if self.auxiliary_skip.max(self.auxiliary_skip_last) > 0.0
-            && !self.operations.contains(&Operation::Skip)
-        {
+        if self.auxiliary_skip > 0.0 && !self.operations.contains(&Operation::Skip) {
             return Err(TrainError::Value {
                 field,
                 found: self.auxiliary_skip.to_string(),
