@@ -92,6 +92,17 @@ pub struct PlainNormal {
     pub widths: [usize; 3],
     /// Channels of the last layer but one.
     pub head: usize,
+    /// More 3x3 convolutions at a quarter of the size, each added to what it was given.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub residuals: usize,
+    /// Channels of the branch of single pixels: two 1x1 convolutions on every image at full size, whose maximum and mean
+    /// over the images join the last layers; 0 is no branch.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub pixel_branch: usize,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// How feature maps grow.
@@ -204,6 +215,8 @@ impl NormalArchitecture {
             body: NormalBody::Plain(PlainNormal {
                 widths: [16, 32, 64],
                 head: 32,
+                residuals: 0,
+                pixel_branch: 0,
             }),
         }
     }
@@ -223,6 +236,8 @@ impl NormalArchitecture {
                 for width in plain.widths {
                     within("width", width, 1, 1024)?;
                 }
+                within("residuals", plain.residuals, 0, 64)?;
+                within("pixel_branch", plain.pixel_branch, 0, 1024)?;
                 within("head", plain.head, 1, 1024)
             }
             NormalBody::Cells(cells) => {

@@ -86,12 +86,18 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
                 + conv(a, b, area / 4)
                 + conv(b, b, area / 4)
                 + conv(b, c, area / 16)
-                + conv(c, c, area / 16)
+                + conv(c, c, area / 16) * (1 + plain.residuals)
                 + conv(c, b, area / 4)
                 + conv(b, b, area / 4);
-            let fused =
-                conv(b, b, area / 4) * 2 + conv(b, plain.head, area) + conv(plain.head, 3, area);
-            (features, fused)
+            let (head, pixel) = (plain.head, plain.pixel_branch);
+            let joined = head + 2 * pixel;
+            let fused = conv(b, b, area / 4) * 2 + conv(b, head, area) + conv(joined, 3, area);
+            if pixel == 0 {
+                (features, fused)
+            } else {
+                let layers = biased(inputs, pixel, area) + biased(pixel, pixel, area);
+                (features + layers, fused + conv(joined, head, area))
+            }
         }
         NormalBody::Cells(cells) => {
             let c = cells.width;
@@ -241,6 +247,14 @@ fn conv(from: usize, to: usize, area: usize) -> Cost {
     }
 }
 
+/// A 1x1 convolution with bias and that many output pixels.
+fn biased(from: usize, to: usize, area: usize) -> Cost {
+    Cost {
+        parameters: from * to + to,
+        multiply_adds: (from * to * area) as u64,
+    }
+}
+
 fn dense(from: usize, to: usize) -> Cost {
     Cost {
         parameters: from * to + to,
@@ -265,6 +279,8 @@ mod tests {
             body: NormalBody::Plain(PlainNormal {
                 widths: [32, 64, 128],
                 head: 32,
+                residuals: 0,
+                pixel_branch: 0,
             }),
         };
         assert_eq!(normal_cost(&wide, 1024).parameters, 482_531);

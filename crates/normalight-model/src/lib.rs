@@ -43,7 +43,7 @@ pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operati
 pub use light_network::LightNetwork;
 pub use light_stage::estimate_lights;
 pub use light_view::LightView;
-pub use normal_network::NormalNetwork;
+pub use normal_network::{FusedFeatures, NormalNetwork};
 pub use normal_stage::estimate_normals;
 pub use observer::{Observer, Progress, Quiet, Stage, StageTimes};
 pub use operation::OperationLayer;

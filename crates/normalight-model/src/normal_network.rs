@@ -1,18 +1,23 @@
+mod fused;
+mod plain;
+
+pub use fused::FusedFeatures;
+
 use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
 use crate::layers::{
     Form, LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row, unit_length,
 };
 use crate::{
-    CellNormal, ModelError, NormalArchitecture, NormalBody, NormalGenotype, PlainNormal,
-    Relaxation, SearchSpace, Upsampling,
+    CellNormal, ModelError, NormalArchitecture, NormalBody, NormalGenotype, Relaxation,
+    SearchSpace, Upsampling,
 };
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
 use burn::tensor::{Device, Tensor};
-use normalight_kernels::transposed_convolution;
+use normalight_kernels::{max_over_images, transposed_convolution};
+use plain::PlainBody;
 
-/// The normal estimation network: per-image features, their maximum over all images, and a
-/// regressor of unit normals.
+/// The normal estimation network: per-image features, their maximum over all images, and a regressor of unit normals.
 #[derive(Module, Debug)]
 pub struct NormalNetwork {
     body: Body,
@@ -24,16 +29,6 @@ pub struct NormalNetwork {
 enum Body {
     Plain(PlainBody),
     Cells(CellBody),
-}
-
-/// Convolutions of the plain network; upsampling happens where the forward pass says.
-#[derive(Module, Debug)]
-struct PlainBody {
-    down: Vec<Conv2d>,
-    up: Vec<Conv2d>,
-    fused: Vec<Conv2d>,
-    head: Conv2d,
-    output: Conv2d,
 }
 
 #[derive(Module, Debug)]
@@ -156,44 +151,44 @@ impl NormalNetwork {
         forward_row(cells, stem, mixture.as_ref())
     }
 
-    /// Features of every image by itself.
+    /// What the network keeps of the images of `stacks` stacks, which lie one after the other with as many images each.
     ///
     /// # Shapes
-    /// - input: `[images, height, width, 6 or 7]`: normalised RGB, light direction, perhaps the
-    ///   mask; sides multiples of [`NormalNetwork::ALIGNMENT`]
-    /// - output: `[images, height / 2, width / 2, channels]`
-    pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
+    /// - input: `[stacks * images, height, width, 6 or 7]`: normalised RGB, light direction, perhaps the mask; sides
+    ///   multiples of [`NormalNetwork::ALIGNMENT`]
+    ///
+    /// # Panics
+    /// If the number of images is not a multiple of `stacks`.
+    pub fn fuse(&self, input: Tensor<4>, stacks: usize) -> FusedFeatures {
         match &self.body {
-            Body::Plain(plain) => {
-                let small = convolve_row(&plain.down, input);
-                let large = convolve_doubled(&plain.up[0], small);
-                convolve_row(&plain.up[1..], large)
-            }
+            Body::Plain(plain) => plain.fuse(input, stacks),
             Body::Cells(cells) => {
+                let images = input.dims()[0] / stacks;
                 let row = self.row(&cells.features, convolve_row(&cells.stem, input));
                 let features = cells.feature_up.forward(row);
-                if cells.second_up {
+                let features = if cells.second_up {
                     convolve_doubled(&cells.feature_conv, features)
                 } else {
                     convolve_leaky(&cells.feature_conv, features)
+                };
+                FusedFeatures {
+                    features: max_over_images(features, stacks),
+                    pixels: None,
+                    images,
                 }
             }
         }
     }
 
-    /// Unit normals from the maximum of the features over the images.
+    /// Unit normals from what was kept of the images.
     ///
     /// # Shapes
-    /// - fused: `[batch, height / 2, width / 2, channels]`
-    /// - output: `[batch, height, width, 3]`
-    pub fn regress(&self, fused: Tensor<4>) -> Tensor<4> {
+    /// - output: `[stacks, height, width, 3]`
+    pub fn regress(&self, fused: FusedFeatures) -> Tensor<4> {
         let raw = match &self.body {
-            Body::Plain(plain) => {
-                let fused = convolve_row(&plain.fused, fused);
-                convolve(&plain.output, convolve_doubled(&plain.head, fused))
-            }
+            Body::Plain(plain) => plain.regress(fused),
             Body::Cells(cells) => {
-                let row = self.row(&cells.regressor, convolve_row(&cells.fused, fused));
+                let row = self.row(&cells.regressor, convolve_row(&cells.fused, fused.features));
                 convolve(&cells.output, cells.regressor_up.forward(row))
             }
         };
@@ -209,26 +204,6 @@ impl NormalNetwork {
             cells.regressor = fold(&cells.regressor);
         }
         network
-    }
-}
-
-impl PlainBody {
-    fn new(plain: &PlainNormal, channels: usize, device: &Device) -> Self {
-        let [a, b, c] = plain.widths;
-        let conv = |channels, stride| convolution(channels, 3, stride, device);
-        Self {
-            down: vec![
-                conv([channels, a], 1),
-                conv([a, b], 2),
-                conv([b, b], 1),
-                conv([b, c], 2),
-                conv([c, c], 1),
-            ],
-            up: vec![conv([c, b], 1), conv([b, b], 1)],
-            fused: vec![conv([b, b], 1), conv([b, b], 1)],
-            head: conv([b, plain.head], 1),
-            output: conv([plain.head, 3], 1),
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 use crate::light_stage::read_back;
 use crate::observer::{Observer, Progress, Stage};
-use crate::{ModelError, NormalArchitecture, NormalNetwork};
+use crate::{FusedFeatures, ModelError, NormalArchitecture, NormalNetwork};
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{ImageStack, Light, Mask, NormalMap, Rect, Vec3};
 use std::ops::ControlFlow;
@@ -53,7 +53,7 @@ pub async fn estimate_normals(
     let steps = (tiles.len() * stack.len()) as f32;
     for (index, &kept) in tiles.iter().enumerate() {
         let tile = Tile::new(stack, mask, lights, kept);
-        let mut fused: Option<Tensor<4>> = None;
+        let mut fused: Option<FusedFeatures> = None;
         for first in (0..stack.len()).step_by(BATCH) {
             let progress = Progress {
                 stage,
@@ -64,10 +64,10 @@ pub async fn estimate_normals(
             }
             let images = first..stack.len().min(first + BATCH);
             let input = tile.batch(stack, lights, images, architecture.mask_channel, device);
-            let most = network.features(input).max_dim(0);
+            let more = network.fuse(input, 1);
             fused = Some(match fused {
-                Some(before) => before.max_pair(most),
-                None => most,
+                Some(before) => before.and(more),
+                None => more,
             });
         }
         if let Some(fused) = fused {

@@ -7,8 +7,8 @@ use normalight_core::{
 };
 use normalight_model::{
     CellLight, CellNormal, EstimateSettings, Estimator, LightArchitecture, LightBody, LightNetwork,
-    ModelError, NormalArchitecture, NormalBody, NormalNetwork, Quiet, Upsampling, Weights,
-    light_cost, normal_cost, paper_genotypes,
+    ModelError, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Quiet, Upsampling,
+    Weights, light_cost, normal_cost, paper_genotypes,
 };
 use std::collections::BTreeMap;
 
@@ -95,9 +95,62 @@ fn folding_keeps_the_function() {
     let architecture = paper_normal(Upsampling::Nearest, [1, 2]);
     let network = NormalNetwork::new(&architecture, false, &device).unwrap();
     let input = Tensor::<4>::random([2, 16, 24, 6], Distribution::Default, &device);
-    let run = |network: &NormalNetwork| network.regress(network.features(input.clone()).max_dim(0));
+    let run = |network: &NormalNetwork| network.regress(network.fuse(input.clone(), 1));
     let difference = (run(&network) - run(&network.folded())).abs().max();
     assert!(difference.into_scalar::<f32>() < 1e-4);
+}
+
+/// A stack may come in parts and in any order, as the pipeline and the trainer bring it, on every backend.
+#[test]
+#[expect(
+    deprecated,
+    reason = "the reference is pinned to the last Burn that has it"
+)]
+fn branch_and_residuals_are_counted_and_take_images_in_parts() {
+    let architecture = NormalArchitecture {
+        mask_channel: false,
+        body: NormalBody::Plain(PlainNormal {
+            widths: [16, 32, 64],
+            head: 32,
+            residuals: 2,
+            pixel_branch: 32,
+        }),
+    };
+    let device = Device::flex();
+    let network = NormalNetwork::new(&architecture, false, &device).unwrap();
+    assert_eq!(
+        network.num_params(),
+        normal_cost(&architecture, 1024).parameters
+    );
+    // By hand: two layers of 64 to 64, two of single pixels, the joining one, and a wider output.
+    let more = 2 * (9 * 64 * 64 + 64) + (7 * 32 + 33 * 32) + (9 * 96 * 32 + 32) + 9 * 64 * 3;
+    assert_eq!(network.num_params(), 126_515 + more);
+    let input = Tensor::<4>::random([5, 16, 24, 6], Distribution::Default, &device);
+    let part = |from: usize, to: usize| input.clone().slice([from..to]);
+    let whole = network.regress(network.fuse(input.clone(), 1));
+    let parts = network.fuse(part(2, 5), 1).and(network.fuse(part(0, 2), 1));
+    let apart = |other: Tensor<4>| {
+        let difference = (whole.clone() - other).abs().max();
+        difference.into_scalar::<f32>()
+    };
+    assert!(apart(network.regress(parts)) < 1e-4);
+    // Two stacks at once are each by itself.
+    let both = Tensor::cat(vec![input.clone(), input.clone() * 0.5], 0);
+    let both = network.regress(network.fuse(both, 2));
+    assert!(apart(both.clone().slice([0..1])) < 1e-4);
+    assert!(apart(both.slice([1..2])) > 1e-3);
+    let bytes = Weights::normal_bytes(&architecture, &network, &BTreeMap::new()).unwrap();
+    let weights = Weights::from_bytes("normal.safetensors", &bytes).unwrap();
+    let reference = Device::ndarray();
+    let [ours, theirs] = [&device, &reference].map(|device| {
+        let (read, network) = weights.normal_network(device).unwrap();
+        assert_eq!(read, architecture);
+        let input = Tensor::<4>::from_data(input.to_data(), device);
+        let normals = network.regress(network.fuse(input, 1));
+        normals.into_data().try_to_vec::<f32>().unwrap()
+    });
+    let worst = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs());
+    assert!(worst.fold(0.0, f32::max) < 1e-3);
 }
 
 #[test]

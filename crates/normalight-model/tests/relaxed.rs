@@ -73,10 +73,8 @@ fn output(network: &NormalNetwork, device: &Device) -> Vec<f32> {
     let count = 2 * 16 * 16 * 6;
     let values: Vec<f32> = (0..count).map(|k| (0.37 * k as f32).cos()).collect();
     let input = Tensor::<4>::from_data(TensorData::new(values, [2, 16, 16, 6]), device);
-    let features = network.features(input);
-    let fused = normalight_kernels::max_over_images(features, 1);
     network
-        .regress(fused)
+        .regress(network.fuse(input, 1))
         .into_data()
         .try_to_vec::<f32>()
         .unwrap()
@@ -201,7 +199,7 @@ fn partial_channels_keep_the_shapes() {
     let architecture = architecture(2, genotype(Operation::Skip));
     let network = NormalNetwork::relaxed(&architecture, &partial, &device).unwrap();
     let input = Tensor::random([2, 16, 16, 6], Distribution::Uniform(0.0, 1.0), &device);
-    let features = network.features(input);
+    let features = network.fuse(input, 2).features();
     assert_eq!(features.dims(), [2, 8, 8, 16]);
     let weights = network.relaxation().unwrap().weights();
     for cell in weights {

@@ -7,7 +7,7 @@ use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{Light, normal_error};
-use normalight_kernels::{channels_first, max_over_images};
+use normalight_kernels::channels_first;
 use normalight_model::{
     AuxiliaryTower, NormalBody, NormalNetwork, Quiet, Stage, Weights, estimate_normals,
 };
@@ -119,8 +119,7 @@ impl Task for NormalTask {
         batch: &Batch,
         device: &Device,
     ) -> Tensor<1> {
-        let features = training.network.features(batch.input(device));
-        let fused = max_over_images(features, batch.samples);
+        let fused = training.network.fuse(batch.input(device), batch.samples);
         let (count, size) = (batch.samples, batch.size);
         let target = TensorData::new(batch.target.clone(), [count, 4, size, size]);
         let target = Tensor::<4>::from_data(target, device);
@@ -132,9 +131,11 @@ impl Task for NormalTask {
             let cosines = (channels_first(normals) * truth.clone()).sum();
             -(cosines / inside.clone()) + 1.0
         };
-        let main = loss(training.network.regress(fused.clone()));
-        match &training.auxiliary {
-            Some(tower) => main + loss(tower.forward(fused)) * recipe.normal.auxiliary_weight,
+        let auxiliary = training.auxiliary.as_ref();
+        let auxiliary = auxiliary.map(|tower| loss(tower.forward(fused.features())));
+        let main = loss(training.network.regress(fused));
+        match auxiliary {
+            Some(auxiliary) => main + auxiliary * recipe.normal.auxiliary_weight,
             None => main,
         }
     }

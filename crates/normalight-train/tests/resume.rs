@@ -12,12 +12,24 @@ fn with_state() -> Vec<(&'static str, String)> {
     let genotypes = genotypes.to_str().unwrap();
     let shared = "steps = 8\nvalidate_every = 4\n[optimiser]\nwarm_up = 2\naverage = 0.9\n\
                   weight_decay = 0.01\n";
+    // Muon keeps a state of another kind.
+    let muon = "kind = \"muon\"\nmuon = { depthwise = \"filters\" }\n";
     vec![
         ("plain normal", format!("{NORMAL}{shared}")),
+        ("plain normal, Muon", format!("{NORMAL}{shared}{muon}")),
+        ("plain light, Muon", format!("{LIGHT}{shared}{muon}")),
         (
-            "normal cells",
+            "branch of single pixels, residual layers",
             format!(
-                "{NORMAL}{shared}[normal.architecture]\nmask_channel = true\n\
+                "{NORMAL}{shared}{muon}[normal.architecture]\nmask_channel = false\n\
+                 [normal.architecture.body]\nkind = \"plain\"\nwidths = [4, 8, 8]\nhead = 4\n\
+                 residuals = 2\npixel_branch = 4\n"
+            ),
+        ),
+        (
+            "normal cells, Muon",
+            format!(
+                "{NORMAL}{shared}{muon}[normal.architecture]\nmask_channel = true\n\
                  [normal.architecture.body]\nkind = \"cells\"\nwidth = 2\nstem_strides = [1, 2]\n\
                  upsampling = \"transposed\"\nfused_convolutions = 2\ngenotype = {genotypes:?}\n"
             ),

@@ -31,11 +31,16 @@ fn software_gpu() -> Option<Device> {
 }
 
 /// Trains until a step, from the folder's checkpoint if there is one; returns the losses.
-fn run(folder: &Path, network: &str, size: usize, device: &Device, until: usize) -> Vec<f32> {
+fn run(
+    folder: &Path,
+    (network, size, optimiser): (&str, usize, &str),
+    device: &Device,
+    until: usize,
+) -> Vec<f32> {
     let text = format!(
         "network = \"{network}\"\nsteps = 100\nsize = {size}\nbatch = 2\nimages = [3, 4]\n\
          validate_every = 100\nvalidation_objects = 1\n\
-         [optimiser]\nwarm_up = 2\n"
+         [optimiser]\nkind = \"{optimiser}\"\nwarm_up = 2\n"
     );
     let run = TrainRun {
         recipe: TrainRecipe::parse("recipe.toml", &text).unwrap(),
@@ -85,17 +90,22 @@ fn distance(one: &[f32], two: &[f32]) -> f32 {
 fn a_software_gpu_trains_like_the_cpu() {
     let Some(gpu) = software_gpu() else { return };
     let cpu = Device::flex();
-    for (network, size) in [("normal", 16), ("light", 64)] {
+    for case in [
+        ("normal", 16, "adam"),
+        ("normal", 16, "muon"),
+        ("light", 64, "muon"),
+    ] {
+        let network = case.0;
         let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
         // Every backend draws other random weights: both go on from one step on the CPU. The
         // batches of the steps after it are the same whoever asks.
-        run(here.path(), network, size, &cpu, 1);
+        run(here.path(), case, &cpu, 1);
         for file in ["checkpoint.safetensors", "recipe.toml"] {
             std::fs::copy(here.path().join(file), there.path().join(file)).unwrap();
         }
         let start = weights(here.path());
-        let expected = run(here.path(), network, size, &cpu, 5);
-        let found = run(there.path(), network, size, &gpu, 5);
+        let expected = run(here.path(), case, &cpu, 5);
+        let found = run(there.path(), case, &gpu, 5);
         assert_eq!((expected.len(), found.len()), (4, 4));
         for (found, expected) in found.iter().zip(&expected) {
             let apart = (found - expected).abs() / expected.abs();

@@ -3,8 +3,12 @@ use crate::cpu::product::{Finish, Left, Product, Right};
 use crate::operations::NEWTON_SCHULZ;
 use rayon::prelude::*;
 
-/// Rows of the output that one thread computes at a time: whole register tiles.
+/// Rows of the output that one thread computes at a time, whole register tiles; also the side of the squares that are
+/// transposed together.
 const BLOCK: usize = 16;
+
+/// Products that are added up at a time: so many rows of two vectors stay in the first cache.
+const DEPTH: usize = 256;
 
 /// Replaces a matrix of `[rows, columns]`, `rows <= columns`, whose singular values are at most 1 by a nearly orthogonal
 /// one with the same singular vectors.
@@ -56,16 +60,22 @@ fn symmetric_product(
         .for_each(|(block, output)| {
             // What lies left of the diagonal's block is copied from its mirror image below.
             let first = block * BLOCK;
-            Product {
-                size: [output.len() / rows, rows - first],
-                counts: [1, inner],
-                left: Left::rows(&left[first * inner..], inner),
-                right: Right::rows(&transposed[first..], rows),
-                output: &mut output[first..],
-                output_row: rows,
-                finish: Finish::Stored,
+            let size = [output.len() / rows, rows - first];
+            for start in (0..inner).step_by(DEPTH) {
+                Product {
+                    size,
+                    counts: [1, DEPTH.min(inner - start)],
+                    left: Left::rows(&left[first * inner + start..], inner),
+                    right: Right::rows(&transposed[start * rows + first..], rows),
+                    output: &mut output[first..],
+                    output_row: rows,
+                    finish: match start {
+                        0 => Finish::Stored,
+                        _ => Finish::Added,
+                    },
+                }
+                .compute();
             }
-            .compute();
         });
     for row in BLOCK..rows {
         for column in 0..row / BLOCK * BLOCK {
@@ -74,10 +84,15 @@ fn symmetric_product(
     }
 }
 
+/// By squares, whose lines stay in the first cache.
 fn transpose(from: &[f32], [rows, columns]: [usize; 2], to: &mut [f32]) {
-    for (row, values) in from.chunks_exact(columns).enumerate() {
-        for (column, value) in values.iter().enumerate() {
-            to[column * rows + row] = *value;
+    for first_row in (0..rows).step_by(BLOCK) {
+        for first in (0..columns).step_by(BLOCK) {
+            for row in first_row..rows.min(first_row + BLOCK) {
+                for column in first..columns.min(first + BLOCK) {
+                    to[column * rows + row] = from[row * columns + column];
+                }
+            }
         }
     }
 }

@@ -2,7 +2,6 @@
 use crate::bench::median_seconds;
 use anyhow::{Context, Result};
 use burn::tensor::{Device, Distribution, Tensor};
-use normalight_kernels::max_over_images;
 use normalight_model::{
     CellNormal, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Upsampling,
     normal_cost, paper_genotypes,
@@ -44,12 +43,19 @@ pub(super) struct Candidate {
     architecture: NormalArchitecture,
 }
 
-/// The four networks.
+/// The networks.
 pub(super) fn all() -> Result<Vec<Candidate>> {
     let genotype = paper_genotypes()
         .normal
         .context("no published normal cells")?;
-    let plain = |widths, head| NormalBody::Plain(PlainNormal { widths, head });
+    let plain = |widths, pixel_branch| {
+        NormalBody::Plain(PlainNormal {
+            widths,
+            head: 32,
+            residuals: 0,
+            pixel_branch,
+        })
+    };
     let cells = |width| {
         NormalBody::Cells(CellNormal {
             width,
@@ -68,8 +74,9 @@ pub(super) fn all() -> Result<Vec<Candidate>> {
         },
     };
     Ok(vec![
-        candidate("plain-127k", plain([16, 32, 64], 32)),
-        candidate("plain-483k", plain([32, 64, 128], 32)),
+        candidate("plain-127k", plain([16, 32, 64], 0)),
+        candidate("plain-483k", plain([32, 64, 128], 0)),
+        candidate("pixels-157k", plain([16, 32, 64], 32)),
         candidate("paper-c8", cells(8)),
         candidate("paper-c16", cells(16)),
     ])
@@ -116,8 +123,7 @@ impl Candidate {
             let trained = network.take().expect("every repetition leaves a network");
 
             let start = Instant::now();
-            let features = trained.features(input.clone());
-            let normals = trained.regress(max_over_images(features, BATCH));
+            let normals = trained.regress(trained.fuse(input.clone(), BATCH));
             let loss = (normals * truth.clone()).mean();
             let forward = start.elapsed();
             let gradients = loss.backward();

@@ -53,8 +53,12 @@ pub(super) fn plain(recipe: &TrainRecipe, width: usize) -> TrainRecipe {
             }
         }
         Network::Normal => {
-            let head = 2 * width;
-            recipe.normal.architecture.body = NormalBody::Plain(PlainNormal { widths, head });
+            recipe.normal.architecture.body = NormalBody::Plain(PlainNormal {
+                widths,
+                head: 2 * width,
+                residuals: 0,
+                pixel_branch: 0,
+            });
         }
     }
     recipe

@@ -1,0 +1,103 @@
+//! The plain network: 3x3 convolutions, perhaps with a branch that sees single pixels.
+use super::fused::{FusedFeatures, FusedPixels};
+use crate::PlainNormal;
+use crate::layers::{convolution, convolve, convolve_doubled, convolve_leaky, convolve_row};
+use burn::module::Module;
+use burn::nn::conv::Conv2d;
+use burn::tensor::{Device, Tensor};
+use normalight_kernels::max_over_images;
+
+/// Convolutions of the plain network; upsampling happens where the forward pass says.
+#[derive(Module, Debug)]
+pub(super) struct PlainBody {
+    down: Vec<Conv2d>,
+    /// At a quarter of the size, each added to what it was given.
+    residual: Vec<Conv2d>,
+    up: Vec<Conv2d>,
+    fused: Vec<Conv2d>,
+    head: Conv2d,
+    pixels: Option<PixelBranch>,
+    output: Conv2d,
+}
+
+/// Layers on colour and light of every pixel by itself, which keep the detail that strides lose.
+#[derive(Module, Debug)]
+struct PixelBranch {
+    /// 1x1, on every image.
+    layers: Vec<Conv2d>,
+    /// On the head beside maximum and mean over the images.
+    join: Conv2d,
+}
+
+impl PlainBody {
+    pub(super) fn new(plain: &PlainNormal, channels: usize, device: &Device) -> Self {
+        let [a, b, c] = plain.widths;
+        let conv = |channels, stride| convolution(channels, 3, stride, device);
+        let joined = plain.head + 2 * plain.pixel_branch;
+        Self {
+            down: vec![
+                conv([channels, a], 1),
+                conv([a, b], 2),
+                conv([b, b], 1),
+                conv([b, c], 2),
+                conv([c, c], 1),
+            ],
+            residual: (0..plain.residuals).map(|_| conv([c, c], 1)).collect(),
+            up: vec![conv([c, b], 1), conv([b, b], 1)],
+            fused: vec![conv([b, b], 1), conv([b, b], 1)],
+            head: conv([b, plain.head], 1),
+            pixels: (plain.pixel_branch > 0).then(|| PixelBranch {
+                layers: vec![
+                    convolution([channels, plain.pixel_branch], 1, 1, device),
+                    convolution([plain.pixel_branch; 2], 1, 1, device),
+                ],
+                join: conv([joined, plain.head], 1),
+            }),
+            output: conv([joined, 3], 1),
+        }
+    }
+
+    /// Features of every image by itself, at half of the size.
+    fn features(&self, input: Tensor<4>) -> Tensor<4> {
+        let small = convolve_row(&self.down, input);
+        let small = self.residual.iter().fold(small, |small, layer| {
+            small.clone() + convolve_leaky(layer, small)
+        });
+        let large = convolve_doubled(&self.up[0], small);
+        convolve_row(&self.up[1..], large)
+    }
+
+    pub(super) fn fuse(&self, input: Tensor<4>, stacks: usize) -> FusedFeatures {
+        let images = input.dims()[0] / stacks;
+        let pixels = self.pixels.as_ref().map(|branch| {
+            let pixels = convolve_row(&branch.layers, input.clone());
+            let [rows, height, width, channels] = pixels.dims();
+            let each = [stacks, rows / stacks, height * width * channels];
+            FusedPixels {
+                most: max_over_images(pixels.clone(), stacks),
+                sum: pixels
+                    .reshape(each)
+                    .sum_dim(1)
+                    .reshape([stacks, height, width, channels]),
+            }
+        });
+        FusedFeatures {
+            features: max_over_images(self.features(input), stacks),
+            pixels,
+            images,
+        }
+    }
+
+    /// Normals before they get unit length.
+    pub(super) fn regress(&self, fused: FusedFeatures) -> Tensor<4> {
+        let features = convolve_row(&self.fused, fused.features);
+        let head = convolve_doubled(&self.head, features);
+        let (Some(branch), Some(pixels)) = (&self.pixels, fused.pixels) else {
+            return convolve(&self.output, head);
+        };
+        let mean = pixels.sum * (1.0 / fused.images as f32);
+        let beside = |map: Tensor<4>| Tensor::cat(vec![map, pixels.most.clone(), mean.clone()], 3);
+        let joined = convolve_leaky(&branch.join, beside(head));
+        convolve(&self.output, beside(joined))
+    }
+}
