@@ -1,13 +1,12 @@
-use crate::observer::{Observer, Progress, Stage};
+use crate::observer::{Observer, Stage, report};
 use crate::{
-    LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Weights,
-    estimate_lights, estimate_normals, light_cost, normal_cost,
+    LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Quality,
+    Weights, estimate_lights, estimate_normals, light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
     Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, albedo_map, refit_lights,
 };
-use std::ops::ControlFlow;
 
 /// Both networks on a device, ready to go from photographs to lights and normals.
 #[derive(Debug)]
@@ -28,6 +27,9 @@ pub struct EstimateSettings {
     /// Refit the lights to the first normals and estimate the normals again; lights that were
     /// given are never touched.
     pub refit: Option<RefitSettings>,
+    /// Over how many views of the photographs lights and final normals are averaged. The normals to
+    /// which lights are refitted are always those of one view: the refit hardly notices.
+    pub quality: Quality,
 }
 
 impl Default for EstimateSettings {
@@ -35,6 +37,7 @@ impl Default for EstimateSettings {
         Self {
             decoding: Decoding::SoftArgmax,
             refit: Some(RefitSettings::default()),
+            quality: Quality::default(),
         }
     }
 }
@@ -104,23 +107,27 @@ impl Estimator {
                     stack,
                     mask,
                     settings.decoding,
+                    settings.quality,
                     &self.device,
                     observer,
                 )
                 .await?
             }
         };
-        let mut normals = self
-            .normals(stack, mask, &lights, Stage::Normals, observer)
-            .await?;
+        let mut stage = Stage::Normals;
         if let (Some(refit), None) = (settings.refit, given) {
-            report(observer, Stage::Refit).await?;
-            lights = refit_lights(stack, mask, &normals, &lights, refit)?;
-            normals = self
-                .normals(stack, mask, &lights, Stage::FinalNormals, observer)
+            let first = Quality::Fast;
+            let normals = self
+                .normals(stack, mask, &lights, first, stage, observer)
                 .await?;
+            report(observer, Stage::Refit, 0.0).await?;
+            lights = refit_lights(stack, mask, &normals, &lights, refit)?;
+            stage = Stage::FinalNormals;
         }
-        report(observer, Stage::Albedo).await?;
+        let normals = self
+            .normals(stack, mask, &lights, settings.quality, stage, observer)
+            .await?;
+        report(observer, Stage::Albedo, 0.0).await?;
         let albedo = albedo_map(stack, mask, &normals, &lights)?;
         Ok(Estimate {
             lights,
@@ -134,6 +141,7 @@ impl Estimator {
         stack: &ImageStack,
         mask: &Mask,
         lights: &[Light],
+        quality: Quality,
         stage: Stage,
         observer: &mut impl Observer,
     ) -> Result<NormalMap, ModelError> {
@@ -143,21 +151,11 @@ impl Estimator {
             stack,
             mask,
             lights,
+            quality.views(),
             &self.device,
             stage,
             observer,
         )
         .await
-    }
-}
-
-async fn report(observer: &mut impl Observer, stage: Stage) -> Result<(), ModelError> {
-    let progress = Progress {
-        stage,
-        fraction: 0.0,
-    };
-    match observer.report(progress).await {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(ModelError::Cancelled),
     }
 }
