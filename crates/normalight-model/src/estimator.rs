@@ -5,7 +5,7 @@ use crate::{
 };
 use burn::tensor::Device;
 use normalight_core::{
-    Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, albedo_map, refit_lights,
+    Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, Symmetry, albedo_map, refit_lights,
 };
 
 /// Both networks on a device, ready to go from photographs to lights and normals.
@@ -27,8 +27,7 @@ pub struct EstimateSettings {
     /// Refit the lights to the first normals and estimate the normals again; lights that were
     /// given are never touched.
     pub refit: Option<RefitSettings>,
-    /// Over how many views of the photographs lights and final normals are averaged. The normals to
-    /// which lights are refitted are always those of one view: the refit hardly notices.
+    /// Over how many views of the photographs lights and normals are averaged.
     pub quality: Quality,
 }
 
@@ -116,16 +115,17 @@ impl Estimator {
         };
         let mut stage = Stage::Normals;
         if let (Some(refit), None) = (settings.refit, given) {
-            let first = Quality::Fast;
+            let views = settings.quality.refit_views();
             let normals = self
-                .normals(stack, mask, &lights, first, stage, observer)
+                .normals(stack, mask, &lights, views, stage, observer)
                 .await?;
             report(observer, Stage::Refit, 0.0).await?;
             lights = refit_lights(stack, mask, &normals, &lights, refit)?;
             stage = Stage::FinalNormals;
         }
+        let views = settings.quality.views();
         let normals = self
-            .normals(stack, mask, &lights, settings.quality, stage, observer)
+            .normals(stack, mask, &lights, views, stage, observer)
             .await?;
         report(observer, Stage::Albedo, 0.0).await?;
         let albedo = albedo_map(stack, mask, &normals, &lights)?;
@@ -141,7 +141,7 @@ impl Estimator {
         stack: &ImageStack,
         mask: &Mask,
         lights: &[Light],
-        quality: Quality,
+        views: &[Symmetry],
         stage: Stage,
         observer: &mut impl Observer,
     ) -> Result<NormalMap, ModelError> {
@@ -151,7 +151,7 @@ impl Estimator {
             stack,
             mask,
             lights,
-            quality.views(),
+            views,
             &self.device,
             stage,
             observer,

@@ -1,7 +1,9 @@
 //! Averages over views, against turned photographs and against the bare network.
 
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{ImageStack, Light, Mask, Samples, StackImage, Symmetry, Transfer, Vec3};
+use normalight_core::{
+    ImageStack, Light, Mask, RefitSettings, Samples, StackImage, Symmetry, Transfer, Vec3,
+};
 use normalight_model::{
     EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NormalArchitecture,
     NormalNetwork, Observer, Progress, Quality, Quiet, Stage, Weights, estimate_normals,
@@ -293,9 +295,9 @@ fn mirrored_photographs_give_mirrored_lights() {
 
     let scene = Scene::new(41, 30, |x, y| x < 9 || x + y > 60);
     let mirror = Symmetry::ALL[1];
-    let difference = |quality| {
+    let difference = |quality, refit| {
         let settings = EstimateSettings {
-            refit: None,
+            refit,
             quality,
             ..EstimateSettings::default()
         };
@@ -312,8 +314,15 @@ fn mirrored_photographs_give_mirrored_lights() {
         });
         differences.fold(0.0, f32::max)
     };
-    for quality in [Quality::Default, Quality::Best] {
-        assert!(difference(quality) < 1e-4, "{}", difference(quality));
+    let refit = Some(RefitSettings::default());
+    for (quality, refit) in [
+        (Quality::Default, None),
+        (Quality::Best, None),
+        (Quality::Best, refit),
+    ] {
+        let far = difference(quality, refit);
+        assert!(far < 1e-3, "{quality:?}, {refit:?}: {far}");
     }
-    assert!(difference(Quality::Fast) > 1e-3, "the views are all alike");
+    let far = difference(Quality::Fast, None);
+    assert!(far > 3e-3, "the views are all alike: {far}");
 }
