@@ -52,7 +52,8 @@ export class Normalight {
    */
   estimate(files: Iterable<StackFile>, options: EstimateOptions = {}): Promise<Estimate> {
     const { mask = "auto", lights, signal, onProgress } = options;
-    const aggregate = new Aggregate();
+    const { quality = "default", refit = true } = options;
+    const aggregate = new Aggregate(quality, refit && lights === undefined);
     return this.#run(
       "estimate",
       {
@@ -64,7 +65,8 @@ export class Normalight {
           mask: mask === "none" ? "none" : "auto",
           images: options.images,
           normalFormat: options.normalFormat ?? "opengl",
-          refit: options.refit ?? true,
+          refit,
+          quality,
         },
       },
       {

@@ -4,6 +4,7 @@ import type {
   DeviceReport,
   Estimate,
   Plan,
+  Quality,
   StackFile,
   Stage,
   Thumbnail,
@@ -16,6 +17,7 @@ export interface Settings {
   images: number | undefined;
   normalFormat: "opengl" | "directx";
   refit: boolean;
+  quality: Quality;
 }
 
 /** What the worker can be asked to do: the arguments and the answer of each task. */

@@ -35,6 +35,12 @@ export interface CreateOptions {
 /** How samples relate to light: `auto` takes 8-bit JPEG and WebP as sRGB and all else as linear. */
 export type ColorMode = "auto" | "linear" | "srgb";
 
+/**
+ * Over how many mirrored and turned views of the photographs lights and normals are averaged: `fast` takes one,
+ * `default` a few, `best` all.
+ */
+export type Quality = "fast" | "default" | "best";
+
 /** How to estimate; everything may be left out. */
 export interface EstimateOptions {
   /** How samples relate to light; `auto` when left out. */
@@ -52,6 +58,8 @@ export interface EstimateOptions {
   readonly normalFormat?: "opengl" | "directx";
   /** Refit the lights to the normals, and the normals to them; on when left out. */
   readonly refit?: boolean;
+  /** What good lights and normals may cost; `default` when left out. */
+  readonly quality?: Quality;
   /** Cancels: the promise then rejects with the signal's reason. */
   readonly signal?: AbortSignal;
   /** Hears of progress. */
@@ -114,6 +122,8 @@ export interface Estimate {
   };
   /** What computed. */
   readonly device: string;
+  /** Over how many views it was averaged. */
+  readonly quality: Quality;
   /** Time of each stage, in the order they ran. */
   readonly seconds: readonly { readonly stage: Stage; readonly seconds: number }[];
   /** The normals as 8-bit RGBA, transparent outside the object; rows from the top. */

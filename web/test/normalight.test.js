@@ -80,6 +80,21 @@ test("a closed estimator refuses, and ends what is under way", async () => {
   assert.equal(started[0].terminated, true);
 });
 
+test("what is left out of the options has its default", async () => {
+  answers = { create: deviceOf, estimate: ({ settings }) => done(settings) };
+  const normalight = await Normalight.create({ device: "cpu" });
+  assert.deepEqual(await normalight.estimate([]), {
+    color: "auto",
+    mask: "auto",
+    images: undefined,
+    normalFormat: "opengl",
+    refit: true,
+    quality: "default",
+  });
+  const { refit, quality } = await normalight.estimate([], { refit: false, quality: "best" });
+  assert.deepEqual([refit, quality], [false, "best"]);
+});
+
 test("a call that was cancelled before its turn is never begun", async () => {
   answers = { create: deviceOf };
   const normalight = await Normalight.create({ device: "cpu" });

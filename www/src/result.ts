@@ -56,11 +56,12 @@ function showLightMap({ files }: Estimate): void {
 }
 
 function showFacts(estimate: Estimate): void {
-  const { width, height, lights, mask, device } = estimate;
+  const { width, height, lights, mask, device, quality } = estimate;
   const facts: [string, string][] = [
     ["Photographs", `${lights.length} of ${width} × ${height} pixels`],
     ["Mask", `${mask.words}, ${mask.pixels.toLocaleString("en")} pixels`],
     ["Device", device],
+    ["Quality", quality],
     ["Time", `${total(estimate).toFixed(2)} s`],
   ];
   byId("facts").replaceChildren(

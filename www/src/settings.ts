@@ -1,4 +1,4 @@
-import type { ColorMode, DeviceChoice, EstimateOptions } from "normalight";
+import type { ColorMode, DeviceChoice, EstimateOptions, Quality } from "normalight";
 import { byId, chosen } from "./dom.js";
 
 /** A setting that may be a file: its radio button asks for one. */
@@ -89,6 +89,7 @@ export class Settings {
       mask: this.#mask.file ?? (wholeFrame ? "none" : "auto"),
       ...(lights ? { lights } : {}),
       ...(images === "all" ? {} : { images: Number(images) }),
+      quality: chosen(this.#form, "quality") as Quality,
       normalFormat: chosen(this.#form, "normal-format") as "opengl" | "directx",
     };
   }

@@ -39,7 +39,7 @@ test("a run can be cancelled, and the next one works", async () => {
 
 test("the sample's result is shown", async () => {
   const { page: tab } = page;
-  assert.match((await tab.textContent("#facts")) ?? "", /16 of 192 × 192 pixels.*CPU/);
+  assert.match((await tab.textContent("#facts")) ?? "", /16 of 192 × 192 pixels.*CPU.*default/);
   assert.equal(await tab.locator("#lights tr").count(), 16);
   assert.equal(await tab.locator("#light-map circle title").count(), 16);
   assert.match((await tab.textContent("#seconds")) ?? "", /reading.*lights.*normals.*refit.*albedo/);

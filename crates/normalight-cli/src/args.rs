@@ -5,6 +5,7 @@ pub(crate) use search::{CompareArgs, DeriveArgs, SearchArgs, SearchCommand, Sear
 
 use crate::choices::{
     BitsChoice, ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, NetworkChoice,
+    QualityChoice,
 };
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -97,6 +98,10 @@ pub(crate) struct EstimationArgs {
     /// Where to compute.
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) device: DeviceChoice,
+    /// What good lights and normals may cost: they are averaged over mirrored and turned views of the
+    /// photographs.
+    #[arg(long, value_enum, default_value = "default")]
+    pub(crate) quality: QualityChoice,
     /// How the light network's classes become numbers.
     #[arg(long, value_enum, default_value = "soft-argmax")]
     pub(crate) decoding: DecodingChoice,

@@ -1,7 +1,9 @@
 //! Words of the command line and what they stand for.
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use normalight_core::Decoding;
 use normalight_io::{ColorMode, NormalFormat};
+use normalight_model::Quality;
 use normalight_synth::BitDepth;
 use normalight_train::{Equal, Network};
 
@@ -63,6 +65,25 @@ pub(crate) enum DecodingChoice {
     SoftArgmax,
     /// The centre of the most probable class, as in the paper.
     Argmax,
+}
+
+/// Over how many views an estimate is averaged; the words are those of the quality itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct QualityChoice(pub(crate) Quality);
+
+impl ValueEnum for QualityChoice {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [QualityChoice; 3] = [
+            QualityChoice(Quality::Fast),
+            QualityChoice(Quality::Default),
+            QualityChoice(Quality::Best),
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()).help(self.0.words()))
+    }
 }
 
 /// One of the two networks.

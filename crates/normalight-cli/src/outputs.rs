@@ -40,13 +40,14 @@ pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
         .map(|stage| format!("{} {:.2}", stage.stage, stage.seconds))
         .collect();
     format!(
-        "images:  {} of {}x{} pixels\nmask:    {}\nlights:  {}\ndevice:  {}\nseconds: {}\nresults: {folder}: {}\n",
+        "images:  {} of {}x{} pixels\nmask:    {}\nlights:  {}\ndevice:  {}\nquality: {}\nseconds: {}\nresults: {folder}: {}\n",
         report.inputs.len(),
         report.width,
         report.height,
         report.mask,
         report.lights_from,
         report.device,
+        report.settings["quality"].as_str().unwrap_or_default(),
         seconds.join(", "),
         files.join(", "),
     )

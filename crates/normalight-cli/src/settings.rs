@@ -28,6 +28,7 @@ impl Estimation {
             settings: EstimateSettings {
                 decoding: args.decoding.into(),
                 refit: (!args.no_refit).then(RefitSettings::default),
+                quality: args.quality.0,
             },
             device: name,
         })
@@ -52,6 +53,7 @@ pub(crate) fn in_words(
     let refit = !args.no_refit && !lights_given;
     [
         ("device".to_owned(), word(args.device).into()),
+        ("quality".to_owned(), word(args.quality).into()),
         ("decoding".to_owned(), word(args.decoding).into()),
         ("refit".to_owned(), refit.into()),
     ]

@@ -77,6 +77,7 @@ fn the_report_tells_how_it_came_to_be() {
     assert_eq!(settings["images"], 4);
     assert_eq!(settings["refit"], true);
     assert_eq!(settings["decoding"], "soft-argmax");
+    assert_eq!(settings["quality"], "default");
     assert_eq!(settings["normal_format"], "opengl");
     let stages = report["seconds"].as_array().unwrap();
     let names: Vec<&str> = stages
@@ -233,6 +234,20 @@ fn settings_change_the_lights() {
     let argmax = lights(&["--no-refit", "--decoding", "argmax"]);
     let srgb = lights(&["--no-refit", "--color", "srgb"]);
     assert!(refitted != plain && plain != argmax && plain != srgb);
+}
+
+#[test]
+fn the_quality_is_what_was_asked_for() {
+    let (place, photographs, _) = prepared();
+    let [fast, default, best] = ["fast", "default", "best"].map(|quality| {
+        let out = place.path().join(quality);
+        let said = said(estimate(&photographs, &out, &["--quality", quality]));
+        assert!(said.contains(&format!("quality: {quality}\n")), "{said}");
+        let report = read_json(&out.join("report.json"));
+        assert_eq!(report["settings"]["quality"], quality);
+        read_npy(&out.join("normals.npy"))
+    });
+    assert!(fast != default && default != best);
 }
 
 #[test]

@@ -90,6 +90,11 @@ impl LightBins {
         }
     }
 
+    /// Number of classes of all three kinds.
+    pub fn classes(&self) -> usize {
+        self.azimuth + self.elevation + self.intensity.count
+    }
+
     /// Classes of a light; values outside the range fall into the nearest class.
     pub fn encode(&self, light: &Light) -> LightClasses {
         let (azimuth, elevation) = direction_to_angles(light.direction);

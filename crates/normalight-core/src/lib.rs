@@ -16,6 +16,7 @@ mod rect;
 mod refit;
 mod stack;
 mod statistics;
+mod symmetry;
 mod transfer;
 mod woodham;
 
@@ -34,5 +35,6 @@ pub use rect::Rect;
 pub use refit::{RefitSettings, albedo_map, refit_lights};
 pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage};
 pub use statistics::StackStatistics;
+pub use symmetry::Symmetry;
 pub use transfer::Transfer;
 pub use woodham::{least_squares_normals, luminance};

@@ -28,7 +28,7 @@ impl NetworkCost {
 /// What a light calibration network costs at its own input size.
 pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
     let bins = &architecture.bins;
-    let classes = bins.azimuth + bins.elevation + bins.intensity.count;
+    let classes = bins.classes();
     let area = architecture.input_size * architecture.input_size;
     let cost = match &architecture.body {
         LightBody::Plain(plain) => {

@@ -1,13 +1,12 @@
-use crate::observer::{Observer, Progress, Stage};
+use crate::observer::{Observer, Stage, report};
 use crate::{
-    LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Weights,
-    estimate_lights, estimate_normals, light_cost, normal_cost,
+    LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Quality,
+    Weights, estimate_lights, estimate_normals, light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
-    Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, albedo_map, refit_lights,
+    Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, Symmetry, albedo_map, refit_lights,
 };
-use std::ops::ControlFlow;
 
 /// Both networks on a device, ready to go from photographs to lights and normals.
 #[derive(Debug)]
@@ -28,6 +27,8 @@ pub struct EstimateSettings {
     /// Refit the lights to the first normals and estimate the normals again; lights that were
     /// given are never touched.
     pub refit: Option<RefitSettings>,
+    /// Over how many views of the photographs lights and normals are averaged.
+    pub quality: Quality,
 }
 
 impl Default for EstimateSettings {
@@ -35,6 +36,7 @@ impl Default for EstimateSettings {
         Self {
             decoding: Decoding::SoftArgmax,
             refit: Some(RefitSettings::default()),
+            quality: Quality::default(),
         }
     }
 }
@@ -104,23 +106,28 @@ impl Estimator {
                     stack,
                     mask,
                     settings.decoding,
+                    settings.quality,
                     &self.device,
                     observer,
                 )
                 .await?
             }
         };
-        let mut normals = self
-            .normals(stack, mask, &lights, Stage::Normals, observer)
-            .await?;
+        let mut stage = Stage::Normals;
         if let (Some(refit), None) = (settings.refit, given) {
-            report(observer, Stage::Refit).await?;
-            lights = refit_lights(stack, mask, &normals, &lights, refit)?;
-            normals = self
-                .normals(stack, mask, &lights, Stage::FinalNormals, observer)
+            let views = settings.quality.refit_views();
+            let normals = self
+                .normals(stack, mask, &lights, views, stage, observer)
                 .await?;
+            report(observer, Stage::Refit, 0.0).await?;
+            lights = refit_lights(stack, mask, &normals, &lights, refit)?;
+            stage = Stage::FinalNormals;
         }
-        report(observer, Stage::Albedo).await?;
+        let views = settings.quality.views();
+        let normals = self
+            .normals(stack, mask, &lights, views, stage, observer)
+            .await?;
+        report(observer, Stage::Albedo, 0.0).await?;
         let albedo = albedo_map(stack, mask, &normals, &lights)?;
         Ok(Estimate {
             lights,
@@ -134,6 +141,7 @@ impl Estimator {
         stack: &ImageStack,
         mask: &Mask,
         lights: &[Light],
+        views: &[Symmetry],
         stage: Stage,
         observer: &mut impl Observer,
     ) -> Result<NormalMap, ModelError> {
@@ -143,21 +151,11 @@ impl Estimator {
             stack,
             mask,
             lights,
+            views,
             &self.device,
             stage,
             observer,
         )
         .await
-    }
-}
-
-async fn report(observer: &mut impl Observer, stage: Stage) -> Result<(), ModelError> {
-    let progress = Progress {
-        stage,
-        fraction: 0.0,
-    };
-    match observer.report(progress).await {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(ModelError::Cancelled),
     }
 }

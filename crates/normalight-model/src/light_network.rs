@@ -119,7 +119,7 @@ impl LightNetwork {
         device: &Device,
     ) -> Self {
         let bins = &architecture.bins;
-        let classes = bins.azimuth + bins.elevation + bins.intensity.count;
+        let classes = bins.classes();
         Self {
             features,
             classifier,

@@ -1,8 +1,8 @@
-use crate::observer::{Observer, Progress, Stage};
-use crate::{LightArchitecture, LightNetwork, LightView, ModelError};
+use crate::observer::{Observer, Stage, report};
+use crate::{LightArchitecture, LightNetwork, LightView, ModelError, Quality};
 use burn::tensor::{Device, Tensor, TensorData, activation};
-use normalight_core::{Decoding, ImageStack, Light, Mask};
-use std::ops::ControlFlow;
+use normalight_core::{Decoding, ImageStack, Light, LightBins, Mask};
+use std::ops::Range;
 
 /// Images that go through the network together: bounds the memory, whatever the size of the stack.
 const BATCH: usize = 16;
@@ -10,103 +10,156 @@ const BATCH: usize = 16;
 /// Estimates the light of every image: one pass for the maximum of the features over the images,
 /// one to classify each image against it.
 ///
+/// A `quality` that averages does all of this for the mirrored photographs too and takes the mean of
+/// the class probabilities. With soft-argmax that is the mean of the angles, and views that
+/// disagree spread the probabilities, which lowers the confidence.
+///
 /// Intensities come back relative to their mean.
 ///
 /// # Errors
 /// [`ModelError::Cancelled`] or [`ModelError::Device`].
+#[expect(
+    clippy::too_many_arguments,
+    reason = "one call site per stage, all needed"
+)]
 pub async fn estimate_lights(
     architecture: &LightArchitecture,
     network: &LightNetwork,
     stack: &ImageStack,
     mask: &Mask,
     decoding: Decoding,
+    quality: Quality,
     device: &Device,
     observer: &mut impl Observer,
 ) -> Result<Vec<Light>, ModelError> {
-    let view = LightView::new(stack, mask, architecture.input_size);
-    let count = stack.len();
-    let mut done = 0;
-    let mut fused: Option<Tensor<4>> = None;
-    for first in (0..count).step_by(BATCH) {
-        let images = first..count.min(first + BATCH);
-        report(observer, done as f32 / (2 * count) as f32).await?;
-        done += images.len();
-        let most = network
-            .features(view_batch(&view, stack, images, device))
-            .max_dim(0);
-        fused = Some(match fused {
-            Some(before) => before.max_pair(most),
-            None => most,
-        });
-    }
-    let Some(fused) = fused else {
-        return Ok(Vec::new());
-    };
     let bins = &architecture.bins;
-    let (azimuths, elevations) = (bins.azimuth, bins.elevation);
-    let mut lights = Vec::with_capacity(count);
-    for first in (0..count).step_by(BATCH) {
-        let images = first..count.min(first + BATCH);
-        report(observer, done as f32 / (2 * count) as f32).await?;
-        done += images.len();
-        let own = network.features(view_batch(&view, stack, images, device));
-        let together = fused.clone().expand(own.dims());
-        let scores = network.classify(own, together);
-        let [rows, classes] = scores.dims();
-        let softmax = |from: usize, to: usize| {
-            activation::softmax(scores.clone().slice([0..rows, from..to]), 1)
+    let views: &[bool] = if quality.mirrors_lights() {
+        &[false, true]
+    } else {
+        &[false]
+    };
+    let mut look = Look {
+        view: LightView::new(stack, mask, architecture.input_size),
+        stack,
+        mirrored: false,
+        device,
+        done: 0,
+        steps: 2 * stack.len() * views.len(),
+    };
+    let mut probabilities = vec![0.0; stack.len() * bins.classes()];
+    for &mirrored in views {
+        look.mirrored = mirrored;
+        let found = look.probabilities(network, bins, observer).await?;
+        for (sum, value) in probabilities.iter_mut().zip(found) {
+            *sum += value / views.len() as f32;
+        }
+    }
+    report(observer, Stage::Lights, 1.0).await?;
+    let lights = probabilities.chunks_exact(bins.classes()).map(|row| {
+        let (azimuth, rest) = row.split_at(bins.azimuth);
+        let (elevation, intensity) = rest.split_at(bins.elevation);
+        bins.decode(azimuth, elevation, intensity, decoding)
+    });
+    Ok(relative(lights.collect()))
+}
+
+/// One look of the network at all photographs.
+struct Look<'a> {
+    view: LightView,
+    stack: &'a ImageStack,
+    /// Left and right exchanged.
+    mirrored: bool,
+    device: &'a Device,
+    /// Images that have passed the network, and how many will have in the end.
+    done: usize,
+    steps: usize,
+}
+
+impl Look<'_> {
+    /// Probabilities of the classes; those of mirrored photographs are mirrored back.
+    ///
+    /// # Shapes
+    /// `[images, classes]`: azimuth, elevation, intensity side by side.
+    async fn probabilities(
+        &mut self,
+        network: &LightNetwork,
+        bins: &LightBins,
+        observer: &mut impl Observer,
+    ) -> Result<Vec<f32>, ModelError> {
+        let count = self.stack.len();
+        let mut fused: Option<Tensor<4>> = None;
+        for first in (0..count).step_by(BATCH) {
+            let images = first..count.min(first + BATCH);
+            let most = network
+                .features(self.batch(images, observer).await?)
+                .max_dim(0);
+            fused = Some(match fused {
+                Some(before) => before.max_pair(most),
+                None => most,
+            });
+        }
+        let Some(fused) = fused else {
+            return Ok(Vec::new());
         };
-        let probabilities = Tensor::cat(
-            vec![
+        let (azimuths, elevations) = (bins.azimuth, bins.elevation);
+        let mut probabilities = Vec::with_capacity(count * bins.classes());
+        for first in (0..count).step_by(BATCH) {
+            let images = first..count.min(first + BATCH);
+            let own = network.features(self.batch(images, observer).await?);
+            let together = fused.clone().expand(own.dims());
+            let scores = network.classify(own, together);
+            let [rows, classes] = scores.dims();
+            let softmax = |from: usize, to: usize| {
+                activation::softmax(scores.clone().slice([0..rows, from..to]), 1)
+            };
+            let heads = vec![
                 softmax(0, azimuths),
                 softmax(azimuths, azimuths + elevations),
                 softmax(azimuths + elevations, classes),
-            ],
-            1,
-        );
-        let values = read_back(probabilities).await?;
-        lights.extend(values.chunks_exact(classes).map(|row| {
-            let (azimuth, rest) = row.split_at(azimuths);
-            let (elevation, intensity) = rest.split_at(elevations);
-            bins.decode(azimuth, elevation, intensity, decoding)
-        }));
-    }
-    report(observer, 1.0).await?;
-    Ok(relative(lights))
-}
-
-async fn report(observer: &mut impl Observer, fraction: f32) -> Result<(), ModelError> {
-    let progress = Progress {
-        stage: Stage::Lights,
-        fraction,
-    };
-    match observer.report(progress).await {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(ModelError::Cancelled),
-    }
-}
-
-/// # Shapes
-/// `[images, size, size, 4]`
-fn view_batch(
-    view: &LightView,
-    stack: &ImageStack,
-    images: std::ops::Range<usize>,
-    device: &Device,
-) -> Tensor<4> {
-    let area = view.size() * view.size();
-    let mut planes = vec![0.0; 4 * area];
-    let mut values = vec![0.0; images.len() * 4 * area];
-    let shape = [images.len(), view.size(), view.size(), 4];
-    for (out, image) in values.chunks_exact_mut(4 * area).zip(images) {
-        view.image(stack, image, &mut planes);
-        for (channel, plane) in planes.chunks_exact(area).enumerate() {
-            for (pixel, value) in out.chunks_exact_mut(4).zip(plane) {
-                pixel[channel] = *value;
+            ];
+            probabilities.extend(read_back(Tensor::cat(heads, 1)).await?);
+        }
+        if self.mirrored {
+            for row in probabilities.chunks_exact_mut(bins.classes()) {
+                row[..azimuths].reverse();
             }
         }
+        Ok(probabilities)
     }
-    Tensor::from_data(TensorData::new(values, shape), device)
+
+    /// Some images, after a word to the observer.
+    ///
+    /// # Shapes
+    /// `[images, size, size, 4]`
+    async fn batch(
+        &mut self,
+        images: Range<usize>,
+        observer: &mut impl Observer,
+    ) -> Result<Tensor<4>, ModelError> {
+        let fraction = self.done as f32 / self.steps as f32;
+        report(observer, Stage::Lights, fraction).await?;
+        self.done += images.len();
+        let size = self.view.size();
+        let area = size * size;
+        let mut planes = vec![0.0; 4 * area];
+        let mut values = vec![0.0; images.len() * 4 * area];
+        let shape = [images.len(), size, size, 4];
+        for (out, image) in values.chunks_exact_mut(4 * area).zip(images) {
+            self.view.image(self.stack, image, &mut planes);
+            if self.mirrored {
+                planes.chunks_exact_mut(size).for_each(<[f32]>::reverse);
+            }
+            for (channel, plane) in planes.chunks_exact(area).enumerate() {
+                for (pixel, value) in out.chunks_exact_mut(4).zip(plane) {
+                    pixel[channel] = *value;
+                }
+            }
+        }
+        Ok(Tensor::from_data(
+            TensorData::new(values, shape),
+            self.device,
+        ))
+    }
 }
 
 /// Waits for a tensor's values; works in browsers too.

@@ -1,9 +1,9 @@
 use crate::light_stage::read_back;
-use crate::observer::{Observer, Progress, Stage};
+use crate::observer::{Observer, Stage, report};
 use crate::{FusedFeatures, ModelError, NormalArchitecture, NormalNetwork};
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{ImageStack, Light, Mask, NormalMap, Rect, Vec3};
-use std::ops::ControlFlow;
+use normalight_core::{ImageStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
+use std::ops::Range;
 
 /// Images that go through the network together: bounds the memory, whatever the size of the stack.
 const BATCH: usize = 8;
@@ -21,7 +21,9 @@ const DARK: f32 = 1e-6;
 /// Estimates the normals of a stack under known lights, tile by tile.
 ///
 /// Each image is divided by its light's intensity, then each pixel and channel by its root mean
-/// square over the images (a first pass), which takes the albedo away.
+/// square over the images (a first pass), which takes the albedo away. The network looks at the
+/// photographs in each of the `views` (one at least), and the normals, turned back, are averaged: what it errs
+/// differently in each view goes. One view costs as much as the next.
 ///
 /// # Errors
 /// [`ModelError::Cancelled`], [`ModelError::Device`] or [`ModelError::Core`].
@@ -35,6 +37,7 @@ pub async fn estimate_normals(
     stack: &ImageStack,
     mask: &Mask,
     lights: &[Light],
+    views: &[Symmetry],
     device: &Device,
     stage: Stage,
     observer: &mut impl Observer,
@@ -50,38 +53,38 @@ pub async fn estimate_normals(
     let (width, height) = (stack.width(), stack.height());
     let mut normals = vec![Vec3::ZERO; width * height];
     let tiles = tiles(mask);
-    let steps = (tiles.len() * stack.len()) as f32;
-    for (index, &kept) in tiles.iter().enumerate() {
+    let steps = (tiles.len() * views.len() * stack.len()) as f32;
+    let mut done = 0;
+    for &kept in &tiles {
         let tile = Tile::new(stack, mask, lights, kept);
-        let mut fused: Option<FusedFeatures> = None;
-        for first in (0..stack.len()).step_by(BATCH) {
-            let progress = Progress {
-                stage,
-                fraction: (index * stack.len() + first) as f32 / steps,
-            };
-            if observer.report(progress).await == ControlFlow::Break(()) {
-                return Err(ModelError::Cancelled);
+        for &symmetry in views {
+            let view = TileView::new(&tile, symmetry);
+            let mut fused: Option<FusedFeatures> = None;
+            for first in (0..stack.len()).step_by(BATCH) {
+                report(observer, stage, done as f32 / steps).await?;
+                let images = first..stack.len().min(first + BATCH);
+                done += images.len();
+                let input = view.batch(stack, lights, images, architecture.mask_channel, device);
+                let more = network.fuse(input, 1);
+                fused = Some(match fused {
+                    Some(before) => before.and(more),
+                    None => more,
+                });
             }
-            let images = first..stack.len().min(first + BATCH);
-            let input = tile.batch(stack, lights, images, architecture.mask_channel, device);
-            let more = network.fuse(input, 1);
-            fused = Some(match fused {
-                Some(before) => before.and(more),
-                None => more,
-            });
-        }
-        if let Some(fused) = fused {
-            let values = read_back(network.regress(fused)).await?;
-            tile.keep(&values, kept, mask, &mut normals);
+            if let Some(fused) = fused {
+                let values = read_back(network.regress(fused)).await?;
+                view.add(&values, kept, mask, &mut normals);
+            }
         }
     }
-    let progress = Progress {
-        stage,
-        fraction: 1.0,
-    };
-    if observer.report(progress).await == ControlFlow::Break(()) {
-        return Err(ModelError::Cancelled);
+    if views.len() > 1 {
+        for (normal, &inside) in normals.iter_mut().zip(mask.inside()) {
+            if inside {
+                *normal = normal.normalize_or(Vec3::Z);
+            }
+        }
     }
+    report(observer, stage, 1.0).await?;
     Ok(NormalMap::new(width, height, normals))
 }
 
@@ -111,12 +114,9 @@ fn tiles(mask: &Mask) -> Vec<Rect> {
     tiles
 }
 
-/// A rectangle of the stack, ready for the network: padded with zeros to a multiple of
-/// [`NormalNetwork::ALIGNMENT`].
+/// A rectangle of the stack, and what is the same in all its views.
 struct Tile {
     rect: Rect,
-    padded_width: usize,
-    padded_height: usize,
     inside: Vec<bool>,
     /// Reciprocal of the root mean square over the images, `[3, rect.height, rect.width]`; zero
     /// outside the object.
@@ -155,66 +155,99 @@ impl Tile {
         }
         Self {
             rect,
-            padded_width: rect.width.next_multiple_of(NormalNetwork::ALIGNMENT),
-            padded_height: rect.height.next_multiple_of(NormalNetwork::ALIGNMENT),
             inside,
             scale,
         }
     }
+}
+
+/// A tile turned and mirrored, ready for the network: padded with zeros to a multiple of
+/// [`NormalNetwork::ALIGNMENT`]. The padding comes last, so that the network sees the same, at the
+/// same place, as in a stack of turned photographs.
+struct TileView<'a> {
+    tile: &'a Tile,
+    symmetry: Symmetry,
+    width: usize,
+    height: usize,
+    /// Where each of the tile's pixels lies in the view, `[rect.height, rect.width]`.
+    places: Vec<usize>,
+}
+
+impl<'a> TileView<'a> {
+    fn new(tile: &'a Tile, symmetry: Symmetry) -> Self {
+        let rect = tile.rect;
+        let (width, height) = symmetry.size(rect.width, rect.height);
+        let width = width.next_multiple_of(NormalNetwork::ALIGNMENT);
+        let height = height.next_multiple_of(NormalNetwork::ALIGNMENT);
+        let place = |index: usize| {
+            let (x, y) = (index % rect.width, index / rect.width);
+            let (x, y) = symmetry.pixel(x, y, rect.width, rect.height);
+            y * width + x
+        };
+        Self {
+            tile,
+            symmetry,
+            width,
+            height,
+            places: (0..rect.area()).map(place).collect(),
+        }
+    }
 
     /// # Shapes
-    /// `[images, padded height, padded width, 6 or 7]`
+    /// `[images, height, width, 6 or 7]`
     fn batch(
         &self,
         stack: &ImageStack,
         lights: &[Light],
-        images: std::ops::Range<usize>,
+        images: Range<usize>,
         mask_channel: bool,
         device: &Device,
     ) -> Tensor<4> {
-        let (width, height) = (self.padded_width, self.padded_height);
+        let Tile {
+            rect,
+            inside,
+            scale,
+        } = self.tile;
         let count = images.len();
         let channels = 6 + usize::from(mask_channel);
-        let mut values = vec![0.0; count * channels * width * height];
-        let mut plain = vec![0.0; 3 * self.rect.area()];
-        let outs = values.chunks_exact_mut(channels * width * height);
+        let mut values = vec![0.0; count * channels * self.width * self.height];
+        let mut plain = vec![0.0; 3 * rect.area()];
+        let outs = values.chunks_exact_mut(channels * self.width * self.height);
         for (image, out) in images.zip(outs) {
-            stack.linear_tile(image, self.rect, &mut plain);
+            stack.linear_tile(image, *rect, &mut plain);
             let light = &lights[image];
+            let direction = self.symmetry.vector(light.direction).to_array();
             for pixel in out.chunks_exact_mut(channels) {
-                pixel[3..6].copy_from_slice(&light.direction.to_array());
+                pixel[3..6].copy_from_slice(&direction);
             }
-            for row in 0..self.rect.height {
-                let line = &mut out[row * width * channels..][..self.rect.width * channels];
-                for channel in 0..3 {
-                    let factor = 1.0 / light.intensity[channel].max(f32::MIN_POSITIVE);
-                    let start = channel * self.rect.area() + row * self.rect.width;
-                    let source = start..start + self.rect.width;
-                    let scaled = plain[source.clone()].iter().zip(&self.scale[source]);
-                    for (pixel, (value, scale)) in line.chunks_exact_mut(channels).zip(scaled) {
-                        pixel[channel] = value * factor * scale;
-                    }
+            let planes = plain
+                .chunks_exact(rect.area())
+                .zip(scale.chunks_exact(rect.area()));
+            for (channel, (plane, scale)) in planes.enumerate() {
+                let factor = 1.0 / light.intensity[channel].max(f32::MIN_POSITIVE);
+                for (&place, (value, scale)) in self.places.iter().zip(plane.iter().zip(scale)) {
+                    out[place * channels + channel] = value * factor * scale;
                 }
-                if mask_channel {
-                    let inside = &self.inside[row * self.rect.width..];
-                    for (pixel, &inside) in line.chunks_exact_mut(channels).zip(inside) {
-                        pixel[6] = f32::from(u8::from(inside));
-                    }
+            }
+            if mask_channel {
+                for (&place, &inside) in self.places.iter().zip(inside) {
+                    out[place * channels + 6] = f32::from(u8::from(inside));
                 }
             }
         }
-        let data = TensorData::new(values, [count, height, width, channels]);
-        Tensor::from_data(data, device)
+        let shape = [count, self.height, self.width, channels];
+        Tensor::from_data(TensorData::new(values, shape), device)
     }
 
-    /// Copies the kept part of the network's output to the whole map.
-    fn keep(&self, values: &[f32], kept: Rect, mask: &Mask, normals: &mut [Vec3]) {
+    /// Turns the network's output back and adds the kept part of it to the whole map.
+    fn add(&self, values: &[f32], kept: Rect, mask: &Mask, normals: &mut [Vec3]) {
+        let (back, rect) = (self.symmetry.inverse(), self.tile.rect);
         for y in kept.y..kept.y + kept.height {
             for x in kept.x..kept.x + kept.width {
                 let target = y * mask.width() + x;
                 if mask.inside()[target] {
-                    let source = (y - self.rect.y) * self.padded_width + (x - self.rect.x);
-                    normals[target] = Vec3::from_slice(&values[3 * source..]);
+                    let place = self.places[(y - rect.y) * rect.width + (x - rect.x)];
+                    normals[target] += back.vector(Vec3::from_slice(&values[3 * place..]));
                 }
             }
         }

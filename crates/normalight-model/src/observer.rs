@@ -1,3 +1,4 @@
+use crate::ModelError;
 use std::ops::ControlFlow;
 
 /// What the pipeline is doing.
@@ -44,6 +45,21 @@ pub struct Progress {
 pub trait Observer {
     /// Takes note of the progress; `Break` cancels the run.
     fn report(&mut self, progress: Progress) -> impl Future<Output = ControlFlow<()>>;
+}
+
+/// Tells the observer how far a stage is.
+///
+/// # Errors
+/// [`ModelError::Cancelled`] when it says stop.
+pub(crate) async fn report(
+    observer: &mut impl Observer,
+    stage: Stage,
+    fraction: f32,
+) -> Result<(), ModelError> {
+    match observer.report(Progress { stage, fraction }).await {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(ModelError::Cancelled),
+    }
 }
 
 /// An observer that never looks and never stops.

@@ -6,7 +6,7 @@ use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
-use normalight_model::{LightBody, LightNetwork, Quiet, Weights, estimate_lights};
+use normalight_model::{LightBody, LightNetwork, Quality, Quiet, Weights, estimate_lights};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
@@ -154,6 +154,7 @@ impl Task for LightTask {
                 &stack,
                 &mask,
                 Decoding::SoftArgmax,
+                Quality::Fast,
                 device,
                 &mut Quiet,
             ))?;

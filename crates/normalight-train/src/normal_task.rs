@@ -9,7 +9,7 @@ use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{Light, normal_error};
 use normalight_kernels::channels_first;
 use normalight_model::{
-    AuxiliaryTower, NormalBody, NormalNetwork, Quiet, Stage, Weights, estimate_normals,
+    AuxiliaryTower, NormalBody, NormalNetwork, Quality, Quiet, Stage, Weights, estimate_normals,
 };
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
@@ -164,6 +164,7 @@ impl Task for NormalTask {
                 &stack,
                 &mask,
                 &lights,
+                Quality::Fast.views(),
                 device,
                 Stage::Normals,
                 &mut Quiet,

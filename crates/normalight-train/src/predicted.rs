@@ -4,7 +4,7 @@ use burn::tensor::Device;
 use glam::Vec3;
 use normalight_core::{Decoding, Light};
 use normalight_model::{
-    LightArchitecture, LightNetwork, Quiet, Weights, default_weights, estimate_lights,
+    LightArchitecture, LightNetwork, Quality, Quiet, Weights, default_weights, estimate_lights,
 };
 use normalight_synth::{Sample, Scene};
 use std::path::Path;
@@ -83,6 +83,7 @@ impl Predictor {
             &stack,
             &mask,
             Decoding::SoftArgmax,
+            Quality::Fast,
             &self.device,
             &mut Quiet,
         ))?;

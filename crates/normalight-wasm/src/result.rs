@@ -8,7 +8,7 @@ use normalight_io::{
     ColorMode, Report, StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, lights_csv,
     lights_lp, lights_svg, mask_png, normals_npy, normals_png, normals_rgba, report_json,
 };
-use normalight_model::Estimate;
+use normalight_model::{Estimate, Quality};
 use serde::Serialize;
 use serde_json::json;
 use wasm_bindgen::JsValue;
@@ -32,6 +32,7 @@ struct Estimated<'a> {
     lights: Vec<LightRow<'a>>,
     mask: Mask<'a>,
     device: &'a str,
+    quality: Quality,
     seconds: &'a [StageSeconds],
     #[serde(with = "serde_wasm_bindgen::preserve")]
     normals: Uint8Array,
@@ -83,6 +84,7 @@ pub(crate) fn result(run: &Run<'_>) -> Result<JsValue, Failure> {
             pixels: input.mask.count(),
         },
         device: run.device,
+        quality: run.settings.quality,
         seconds: &run.seconds,
         normals: Uint8Array::from(normals.as_slice()),
         albedo: Uint8Array::from(albedo.as_slice()),
@@ -143,6 +145,7 @@ fn report(run: &Run<'_>, names: &[String]) -> Result<Vec<u8>, Failure> {
             "normal_format": run.settings.normal_format,
             "color": run.settings.color,
             "refit": run.settings.refit,
+            "quality": run.settings.quality,
         }),
         seconds: run.seconds.clone(),
     })?)

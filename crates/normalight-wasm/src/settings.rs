@@ -2,7 +2,7 @@
 use crate::error::Failure;
 use normalight_core::RefitSettings;
 use normalight_io::{ColorMode, MaskChoice, NamedBytes, NormalFormat, ReadOptions};
-use normalight_model::EstimateSettings;
+use normalight_model::{EstimateSettings, Quality};
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::JsValue;
 
@@ -15,6 +15,7 @@ pub(crate) struct Settings {
     pub(crate) images: Option<usize>,
     pub(crate) normal_format: Format,
     pub(crate) refit: bool,
+    pub(crate) quality: Quality,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,6 +53,7 @@ impl Default for Settings {
             images: None,
             normal_format: Format::default(),
             refit: true,
+            quality: Quality::default(),
         }
     }
 }
@@ -76,6 +78,7 @@ impl Settings {
     pub(crate) fn estimating(&self) -> EstimateSettings {
         EstimateSettings {
             refit: self.refit.then(RefitSettings::default),
+            quality: self.quality,
             ..EstimateSettings::default()
         }
     }

@@ -70,6 +70,11 @@ export class Page {
     return await this.ready();
   }
 
+  /** Chooses a quality. @param {import("normalight").Quality} quality */
+  async quality(quality) {
+    await this.page.check(`input[name="quality"][value="${quality}"]`, { force: true });
+  }
+
   /** Hands files to the page as a user does. @param {import("./files.js").TestFile[]} files */
   async upload(files) {
     await this.page.setInputFiles(

@@ -1,0 +1,328 @@
+//! Averages over views, against turned photographs and against the bare network.
+
+use burn::tensor::{Device, Tensor, TensorData};
+use normalight_core::{
+    ImageStack, Light, Mask, RefitSettings, Samples, StackImage, Symmetry, Transfer, Vec3,
+};
+use normalight_model::{
+    EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NormalArchitecture,
+    NormalNetwork, Observer, Progress, Quality, Quiet, Stage, Weights, estimate_normals,
+};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+const IMAGES: usize = 3;
+
+/// Rows of pixels: turned here by exchanging and reversing rows, not by formulas for places.
+type Grid<T> = Vec<Vec<T>>;
+
+fn transposed<T: Copy>(grid: Grid<T>) -> Grid<T> {
+    (0..grid[0].len())
+        .map(|column| grid.iter().map(|row| row[column]).collect())
+        .collect()
+}
+
+fn turned<T: Copy>(symmetry: Symmetry, mut grid: Grid<T>) -> Grid<T> {
+    if symmetry.transposed {
+        grid = transposed(grid);
+    }
+    if symmetry.mirrored {
+        grid.iter_mut().for_each(|row| row.reverse());
+    }
+    if symmetry.upside_down {
+        grid.reverse();
+    }
+    grid
+}
+
+fn turned_back<T: Copy>(symmetry: Symmetry, mut grid: Grid<T>) -> Grid<T> {
+    let mirrorings = Symmetry {
+        transposed: false,
+        ..symmetry
+    };
+    grid = turned(mirrorings, grid);
+    if symmetry.transposed {
+        grid = transposed(grid);
+    }
+    grid
+}
+
+/// Photographs without any symmetry, in which every pixel is noise, with their lights.
+#[derive(Clone)]
+struct Scene {
+    images: Vec<Grid<[f32; 3]>>,
+    inside: Grid<bool>,
+    lights: Vec<Light>,
+}
+
+impl Scene {
+    /// All pixels but those of `outside` belong to the object.
+    fn new(width: usize, height: usize, outside: impl Fn(usize, usize) -> bool) -> Self {
+        let mut state = 1u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32
+        };
+        let rows = 0..height;
+        let images = (0..IMAGES)
+            .map(|_| {
+                let row = |_| (0..width).map(|_| [random(), random(), random()]).collect();
+                rows.clone().map(row).collect()
+            })
+            .collect();
+        let directions = [[0.3, 0.5, 0.8], [-0.6, 0.1, 0.7], [0.2, -0.4, 0.9]];
+        let light = |(k, direction)| Light {
+            intensity: [0.8, 1.0, 1.1 + 0.3 * k as f32],
+            ..Light::new(Vec3::from_array(direction), 1.0)
+        };
+        Self {
+            images,
+            inside: rows
+                .map(|y| (0..width).map(|x| !outside(x, y)).collect())
+                .collect(),
+            lights: directions.into_iter().enumerate().map(light).collect(),
+        }
+    }
+
+    fn turned(&self, symmetry: Symmetry) -> Self {
+        let mut scene = self.clone();
+        for image in &mut scene.images {
+            *image = turned(symmetry, std::mem::take(image));
+        }
+        scene.inside = turned(symmetry, scene.inside);
+        for light in &mut scene.lights {
+            light.direction = symmetry.vector(light.direction);
+        }
+        scene
+    }
+
+    fn stack(&self) -> ImageStack {
+        let image = |image: &Grid<[f32; 3]>| StackImage {
+            name: "noise".to_owned(),
+            width: image[0].len(),
+            height: image.len(),
+            channels: 3,
+            samples: Samples::F32(image.iter().flatten().flatten().copied().collect()),
+            transfer: Transfer::Linear,
+        };
+        ImageStack::new(self.images.iter().map(image).collect()).unwrap()
+    }
+
+    fn mask(&self) -> Mask {
+        let inside = self.inside.concat();
+        Mask::new(self.inside[0].len(), self.inside.len(), inside)
+    }
+}
+
+/// An untrained network, which treats no two views alike.
+struct Untrained {
+    architecture: NormalArchitecture,
+    network: NormalNetwork,
+    device: Device,
+}
+
+impl Untrained {
+    fn new() -> Self {
+        let device = Device::flex();
+        let architecture = NormalArchitecture {
+            mask_channel: true,
+            ..NormalArchitecture::plain()
+        };
+        let network = NormalNetwork::new(&architecture, false, &device).unwrap();
+        Self {
+            architecture,
+            network,
+            device,
+        }
+    }
+
+    fn normals(&self, scene: &Scene, views: &[Symmetry], observer: &mut impl Observer) -> Found {
+        let (stack, mask) = (scene.stack(), scene.mask());
+        let estimated = estimate_normals(
+            &self.architecture,
+            &self.network,
+            &stack,
+            &mask,
+            &scene.lights,
+            views,
+            &self.device,
+            Stage::Normals,
+            observer,
+        );
+        let map = pollster::block_on(estimated)?;
+        let rows = map.normals().chunks_exact(map.width());
+        Ok(rows.map(<[Vec3]>::to_vec).collect())
+    }
+}
+
+type Found = Result<Grid<Vec3>, ModelError>;
+
+fn furthest(one: &Grid<Vec3>, two: &Grid<Vec3>) -> f32 {
+    let pairs = one.iter().flatten().zip(two.iter().flatten());
+    pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+}
+
+#[test]
+fn all_views_are_the_mean_over_turned_photographs() {
+    let untrained = Untrained::new();
+    // Odd sides; and an object of two whole tiles, which divide it alike however it is turned.
+    let odd = Scene::new(37, 22, |x, y| x < 3 || y > 18 || (x + y) % 11 == 0);
+    let tiles = Scene::new(512, 20, |x, y| (x * y) % 13 == 7);
+    for scene in [odd, tiles] {
+        let mut sum = vec![vec![Vec3::ZERO; scene.inside[0].len()]; scene.inside.len()];
+        for symmetry in Symmetry::ALL {
+            let view = untrained
+                .normals(&scene.turned(symmetry), &[Symmetry::NONE], &mut Quiet)
+                .unwrap();
+            let back = turned_back(symmetry, view);
+            for (sum, normal) in sum.iter_mut().flatten().zip(back.concat()) {
+                *sum += symmetry.inverse().vector(normal);
+            }
+        }
+        for normal in sum.iter_mut().flatten() {
+            *normal = normal.normalize_or_zero();
+        }
+        let views = Quality::Best.views();
+        let mean = untrained.normals(&scene, views, &mut Quiet).unwrap();
+        assert!(furthest(&mean, &sum) < 1e-4, "{}", furthest(&mean, &sum));
+        let one = untrained
+            .normals(&scene, Quality::Fast.views(), &mut Quiet)
+            .unwrap();
+        assert!(furthest(&mean, &one) > 0.01, "the views are all alike");
+        // So turned photographs give turned normals.
+        let turn = Symmetry::ALL[5];
+        let there = untrained
+            .normals(&scene.turned(turn), views, &mut Quiet)
+            .unwrap();
+        let mut back = turned_back(turn, there);
+        for normal in back.iter_mut().flatten() {
+            *normal = turn.inverse().vector(*normal);
+        }
+        assert!(furthest(&mean, &back) < 1e-4);
+    }
+}
+
+#[test]
+fn one_view_is_the_bare_network() {
+    let scene = Scene::new(24, 16, |x, y| x + y < 5);
+    let untrained = Untrained::new();
+    let mut values = Vec::new();
+    for (image, light) in scene.images.iter().zip(&scene.lights) {
+        for (y, row) in image.iter().enumerate() {
+            for (x, pixel) in row.iter().enumerate() {
+                let inside = scene.inside[y][x];
+                for channel in 0..3 {
+                    let relit = |image: usize| {
+                        let factor = 1.0 / scene.lights[image].intensity[channel];
+                        (scene.images[image][y][x][channel] * factor).powi(2)
+                    };
+                    let square = (0..IMAGES).map(relit).fold(0.0, |sum, value| sum + value);
+                    let scale = 1.0 / (square / IMAGES as f32).sqrt();
+                    let factor = 1.0 / light.intensity[channel];
+                    let scale = if inside { scale } else { 0.0 };
+                    values.push(pixel[channel] * factor * scale);
+                }
+                values.extend(light.direction.to_array());
+                values.push(f32::from(u8::from(inside)));
+            }
+        }
+    }
+    let input = TensorData::new(values, [IMAGES, 16, 24, 7]);
+    let features = untrained
+        .network
+        .features(Tensor::from_data(input, &untrained.device));
+    let output = untrained.network.regress(features.max_dim(0)).into_data();
+    let output = output.try_to_vec::<f32>().unwrap();
+    let found = untrained
+        .normals(&scene, Quality::Fast.views(), &mut Quiet)
+        .unwrap();
+    let places = found.iter().flatten().zip(output.chunks_exact(3));
+    for ((found, expected), inside) in places.zip(scene.inside.concat()) {
+        let expected = if inside { expected } else { &[0.0; 3] };
+        assert!(found.distance(Vec3::from_slice(expected)) < 1e-4);
+    }
+}
+
+/// Notes how far a run is, and stops it after some reports.
+struct Patient {
+    fractions: Vec<f32>,
+    patience: usize,
+}
+
+impl Observer for Patient {
+    async fn report(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.fractions.push(progress.fraction);
+        if self.fractions.len() > self.patience {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[test]
+fn views_make_progress_and_can_be_stopped() {
+    let untrained = Untrained::new();
+    let scene = Scene::new(16, 8, |_, _| false);
+    let observed = |patience| {
+        let mut observer = Patient {
+            fractions: Vec::new(),
+            patience,
+        };
+        let found = untrained.normals(&scene, Quality::Best.views(), &mut observer);
+        (found, observer.fractions)
+    };
+    let (found, fractions) = observed(usize::MAX);
+    assert!(found.is_ok());
+    // One report for each view, as all images pass the network together; and the end.
+    let expected: Vec<f32> = (0..=8).map(|view| view as f32 / 8.0).collect();
+    assert_eq!(fractions, expected);
+    let (found, fractions) = observed(5);
+    assert!(matches!(found, Err(ModelError::Cancelled)));
+    assert_eq!(fractions.len(), 6);
+}
+
+#[test]
+fn mirrored_photographs_give_mirrored_lights() {
+    let device = Device::flex();
+    let notes = BTreeMap::new();
+    let (light, normal) = (LightArchitecture::plain(), NormalArchitecture::plain());
+    let network = LightNetwork::new(&light, false, &device).unwrap();
+    let light = Weights::light_bytes(&light, &network, &notes).unwrap();
+    let network = NormalNetwork::new(&normal, false, &device).unwrap();
+    let normal = Weights::normal_bytes(&normal, &network, &notes).unwrap();
+    let read = |bytes: &[u8]| Weights::from_bytes("untrained", bytes).unwrap();
+    let estimator = Estimator::new(&read(&light), &read(&normal), device).unwrap();
+
+    let scene = Scene::new(41, 30, |x, y| x < 9 || x + y > 60);
+    let mirror = Symmetry::ALL[1];
+    let difference = |quality, refit| {
+        let settings = EstimateSettings {
+            refit,
+            quality,
+            ..EstimateSettings::default()
+        };
+        let [one, two] = [scene.clone(), scene.turned(mirror)].map(|scene| {
+            let (stack, mask, mut quiet) = (scene.stack(), scene.mask(), Quiet);
+            let found = estimator.estimate(&stack, &mask, None, settings, &mut quiet);
+            pollster::block_on(found).unwrap().lights
+        });
+        let pairs = one.iter().zip(&two);
+        let differences = pairs.map(|(one, two)| {
+            let directions = one.direction.distance(mirror.vector(two.direction));
+            let intensities = (one.intensity[0] - two.intensity[0]).abs();
+            directions + intensities + (one.confidence - two.confidence).abs()
+        });
+        differences.fold(0.0, f32::max)
+    };
+    let refit = Some(RefitSettings::default());
+    for (quality, refit) in [
+        (Quality::Default, None),
+        (Quality::Best, None),
+        (Quality::Best, refit),
+    ] {
+        let far = difference(quality, refit);
+        assert!(far < 1e-3, "{quality:?}, {refit:?}: {far}");
+    }
+    let far = difference(Quality::Fast, None);
+    assert!(far > 3e-3, "the views are all alike: {far}");
+}
