@@ -57,6 +57,13 @@ fn kinds() -> Vec<(&'static str, String)> {
     vec![
         ("default", format!("{NORMAL}{steps}{NORMAL_CELLS}{two}")),
         (
+            "Muon",
+            format!(
+                "{NORMAL}{steps}{NORMAL_CELLS}{two}[optimiser]\nkind = \"muon\"\n\
+                 muon = {{ depthwise = \"filters\" }}\n"
+            ),
+        ),
+        (
             "partial channels",
             format!(
                 "{NORMAL}{steps}{NORMAL_CELLS}{two}channel_divisor = 2\nauxiliary_skip = 0.0\nmost_skips = 1\n"
