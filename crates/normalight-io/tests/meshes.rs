@@ -319,9 +319,35 @@ fn folders_of_meshes() {
     let files = files.map(|name| (name, CUBE_OBJ.as_bytes()));
     write_files(place.path(), &files).unwrap();
     std::fs::create_dir(place.path().join("d.obj")).unwrap();
+    let deeper = place.path().join("b9");
+    write_files(&deeper, &[("z.obj", CUBE_OBJ)]).unwrap();
+    let names = |path: &std::path::Path| -> Vec<String> {
+        let found = mesh_files(path).unwrap();
+        let name = |file: &std::path::PathBuf| {
+            let file = file.strip_prefix(place.path()).unwrap();
+            file.to_str().unwrap().replace('\\', "/")
+        };
+        found.iter().map(name).collect()
+    };
+    let expected = ["A.ply", "b2.obj", "b9/z.obj", "b10.obj", "c.glb"];
+    assert_eq!(names(place.path()), expected);
+
+    // A list keeps its order, and does not ask whether its meshes are there.
+    let list = deeper.join("list.txt");
+    std::fs::write(&list, "# chosen\n z.obj \r\n\ngone/y.ply\n").unwrap();
+    assert_eq!(names(&list), ["b9/z.obj", "b9/gone/y.ply"]);
+    for (text, expected) in [
+        ("z.obj\nnotes.md\n", "\"notes.md\""),
+        ("# none\n", "a list without any"),
+        ("\u{1}\u{2}\n", "a list with"),
+    ] {
+        std::fs::write(&list, text).unwrap();
+        let error = mesh_files(&list).unwrap_err().to_string();
+        assert!(error.contains("list.txt: found"), "{error}");
+        assert!(error.contains(expected), "{error}");
+    }
+
     let found = mesh_files(place.path()).unwrap();
-    let names: Vec<_> = found.iter().map(|path| path.file_name().unwrap()).collect();
-    assert_eq!(names, ["A.ply", "b2.obj", "b10.obj", "c.glb"]);
     assert_eq!(read_mesh_file(&found[1]).unwrap().triangles().len(), 12);
     let error = read_mesh_file(&found[0]).unwrap_err();
     assert!(error.to_string().contains("A.ply"), "{error}");

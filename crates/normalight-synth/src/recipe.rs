@@ -1,7 +1,9 @@
 //! The numbers that describe a distribution of samples.
 mod check;
+mod meshes;
 mod preset;
 
+pub use meshes::MeshFolder;
 pub use preset::Preset;
 
 use serde::{Deserialize, Serialize};
@@ -52,11 +54,16 @@ pub struct ShapeRecipe {
     pub statue: f32,
     /// Weight of flat objects: coins, plaques, carved stone, cloth, bark.
     pub plate: f32,
-    /// Weight of the meshes in `mesh_folder`.
+    /// Weight of the meshes in `mesh_folders`.
     pub mesh: f32,
-    /// Folder of OBJ, PLY and GLB files; needed when `mesh` is positive.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_folder: Option<PathBuf>,
+    /// Where meshes come from; needed when `mesh` is positive. In files `mesh_folder = "x"` is short for
+    /// one folder alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mesh_folders: Vec<MeshFolder>,
+    /// Where the meshes of validation objects come from instead, see [`crate::Renderer::validation`]; no
+    /// file may be in both. None given: from `mesh_folders`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub validation_meshes: Vec<MeshFolder>,
     /// Largest tilt of upright objects towards or away from the camera, degrees in 0..=60.
     pub max_tilt_degrees: f32,
     /// Share of upright objects in any orientation instead.
@@ -85,7 +92,8 @@ impl Default for ShapeRecipe {
             statue: 0.25,
             plate: 0.15,
             mesh: 0.0,
-            mesh_folder: None,
+            mesh_folders: Vec::new(),
+            validation_meshes: Vec::new(),
             max_tilt_degrees: 25.0,
             tumbled_share: 0.1,
             relief_share: 0.5,

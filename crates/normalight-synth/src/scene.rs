@@ -15,7 +15,7 @@ use crate::materials::{Measured, Paint, Surfaces, shade};
 use crate::random::{Random, Stream};
 use crate::recipe::{SceneRecipe, TransportRecipe};
 use crate::sample::Sample;
-use crate::shapes::{Mesh, Object, View, object};
+use crate::shapes::{Library, Object, View, object};
 use crops::Crops;
 use framing::frame;
 use symmetry::Symmetry;
@@ -32,7 +32,7 @@ const LARGEST_SIDE: usize = 640;
 /// What the drawing of a scene starts from.
 pub(crate) struct Stage<'a> {
     pub(crate) recipe: &'a SceneRecipe,
-    pub(crate) meshes: &'a [Mesh],
+    pub(crate) meshes: &'a Library,
     pub(crate) measured: &'a [Measured],
     pub(crate) seed: u64,
 }

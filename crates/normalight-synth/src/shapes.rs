@@ -1,6 +1,7 @@
 //! What is photographed: solids as signed distances, and meshes.
 mod figures;
 mod lathe;
+mod library;
 mod mesh;
 mod objects;
 mod part;
@@ -11,6 +12,6 @@ mod shape;
 mod vessels;
 mod view;
 
-pub(crate) use mesh::Mesh;
+pub(crate) use library::{Library, check_apart};
 pub(crate) use objects::{Object, object};
 pub(crate) use view::{Detail, View, Window};

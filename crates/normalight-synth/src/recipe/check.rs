@@ -1,4 +1,4 @@
-use super::SceneRecipe;
+use super::{MeshFolder, SceneRecipe};
 use crate::SynthError;
 
 impl SceneRecipe {
@@ -46,11 +46,13 @@ impl SceneRecipe {
             ],
         )?;
         needs_file(
-            "shapes.mesh_folder",
+            "shapes.mesh_folders",
             shapes.mesh,
-            shapes.mesh_folder.is_some(),
-            "a folder of meshes, because shapes.mesh is positive,",
+            !shapes.mesh_folders.is_empty(),
+            "folders of meshes, because shapes.mesh is positive,",
         )?;
+        MeshFolder::validate("shapes.mesh_folders", &shapes.mesh_folders)?;
+        MeshFolder::validate("shapes.validation_meshes", &shapes.validation_meshes)?;
         share("shapes.tumbled_share", shapes.tumbled_share)?;
         share("shapes.perspective_share", shapes.perspective_share)?;
         let expected = "[low, high] with 2 <= low <= high <= 100 object sizes";
@@ -234,7 +236,7 @@ fn share(field: &'static str, found: f32) -> Result<(), SynthError> {
 }
 
 // Written so that NaN fails too.
-fn number(
+pub(super) fn number(
     field: &'static str,
     found: f32,
     low: f32,

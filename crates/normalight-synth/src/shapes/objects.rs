@@ -1,5 +1,6 @@
 use super::figures::figure;
-use super::mesh::{Mesh, PosedMesh};
+use super::library::Library;
+use super::mesh::PosedMesh;
 use super::part::Part;
 use super::plate::Plate;
 use super::relief::Relief;
@@ -42,10 +43,10 @@ impl Object<'_> {
     }
 }
 
-/// Draws an object; `meshes` are those of the recipe's folder.
+/// Draws an object; `meshes` are those of the recipe's folders.
 pub(crate) fn object<'a>(
     recipe: &ShapeRecipe,
-    meshes: &'a [Mesh],
+    meshes: &'a Library,
     random: &mut Random,
 ) -> Object<'a> {
     let kind = random.weighted(&[
@@ -90,7 +91,8 @@ pub(crate) fn object<'a>(
         }
         5 => plate(recipe, random),
         _ => {
-            let mesh = &meshes[random.below(meshes.len().max(1))];
+            let mesh = meshes.draw(random);
+            let mesh = mesh.expect("only a library with meshes has a weight");
             let yaw = yaw(random);
             let turn = upright(recipe, random, yaw);
             return Object::Mesh(mesh.posed(turn));
