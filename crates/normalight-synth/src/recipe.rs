@@ -64,6 +64,9 @@ pub struct ShapeRecipe {
     /// file may be in both. None given: from `mesh_folders`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub validation_meshes: Vec<MeshFolder>,
+    /// Angle in degrees, 0..=180, above which the faces of a mesh meet in an edge; up to it they are
+    /// smooth.
+    pub crease_degrees: f32,
     /// Largest tilt of upright objects towards or away from the camera, degrees in 0..=60.
     pub max_tilt_degrees: f32,
     /// Share of upright objects in any orientation instead.
@@ -94,6 +97,7 @@ impl Default for ShapeRecipe {
             mesh: 0.0,
             mesh_folders: Vec::new(),
             validation_meshes: Vec::new(),
+            crease_degrees: 40.0,
             max_tilt_degrees: 25.0,
             tumbled_share: 0.1,
             relief_share: 0.5,

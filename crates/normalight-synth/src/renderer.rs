@@ -32,7 +32,7 @@ impl Renderer {
         recipe.validate()?;
         let shapes = &recipe.shapes;
         let meshes = match shapes.mesh > 0.0 {
-            true => Library::read(&shapes.mesh_folders)?,
+            true => Library::read(&shapes.mesh_folders, shapes.crease_degrees)?,
             false => Library::default(),
         };
         let measured = match &recipe.materials.measured_file {
@@ -57,7 +57,7 @@ impl Renderer {
             self.meshes.clone()
         } else {
             check_apart(&shapes.mesh_folders, &shapes.validation_meshes)?;
-            Library::read(&shapes.validation_meshes)?
+            Library::read(&shapes.validation_meshes, shapes.crease_degrees)?
         };
         Ok(self.with_meshes(meshes))
     }

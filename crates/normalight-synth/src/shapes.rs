@@ -1,6 +1,7 @@
 //! What is photographed: solids as signed distances, and meshes.
 mod figures;
 mod lathe;
+mod layers;
 mod library;
 mod mesh;
 mod objects;

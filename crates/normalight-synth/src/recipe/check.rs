@@ -63,6 +63,8 @@ impl SceneRecipe {
             100.0,
             expected,
         )?;
+        let field = "shapes.crease_degrees";
+        number(field, shapes.crease_degrees, 0.0, 180.0, "0..=180 degrees")?;
         let field = "shapes.max_tilt_degrees";
         number(field, shapes.max_tilt_degrees, 0.0, 60.0, "0..=60 degrees")?;
         share("shapes.relief_share", shapes.relief_share)?;

@@ -18,17 +18,18 @@ struct Folder {
 }
 
 impl Library {
-    /// Reads the meshes of all folders of positive weight.
+    /// Reads the meshes of all folders of positive weight; `crease`: angle in degrees above which faces
+    /// meet in an edge.
     ///
     /// # Errors
     /// A folder without meshes, a file that cannot be read or is no mesh.
-    pub(crate) fn read(folders: &[MeshFolder]) -> Result<Self, SynthError> {
+    pub(crate) fn read(folders: &[MeshFolder], crease: f32) -> Result<Self, SynthError> {
         let used = folders.iter().filter(|folder| folder.weight > 0.0);
         let read = |folder: &MeshFolder| {
             let files = normalight_io::mesh_files(&folder.path)?;
             Ok(Folder {
                 weight: folder.weight,
-                meshes: read_all(&files)?,
+                meshes: read_all(&files, crease)?,
             })
         };
         Ok(Self(used.map(read).collect::<Result<_, SynthError>>()?))
@@ -69,9 +70,10 @@ impl Library {
 }
 
 /// Reads on all cores: hundreds of scans take seconds.
-fn read_all(files: &[PathBuf]) -> Result<Vec<Arc<Mesh>>, SynthError> {
+fn read_all(files: &[PathBuf], crease: f32) -> Result<Vec<Arc<Mesh>>, SynthError> {
     let read = |file: &PathBuf| -> Result<Arc<Mesh>, SynthError> {
-        Ok(Arc::new(Mesh::new(&normalight_io::read_mesh_file(file)?)))
+        let mesh = normalight_io::read_mesh_file(file)?;
+        Ok(Arc::new(Mesh::new(mesh, crease)))
     };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = files.len().div_ceil(threads).max(1);

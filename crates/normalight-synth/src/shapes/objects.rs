@@ -38,7 +38,7 @@ impl Object<'_> {
     pub(crate) fn view(&self, window: Window, detail: Detail) -> View {
         match self {
             Self::Solid(shape) => View::trace(shape, window, detail),
-            Self::Mesh(mesh) => mesh.view(window),
+            Self::Mesh(mesh) => mesh.view(window, detail),
         }
     }
 }
