@@ -75,6 +75,13 @@ pub struct ShapeRecipe {
     pub relief_share: f32,
     /// Share of the objects with relief where it is strong and detailed.
     pub strong_relief_share: f32,
+    /// Share of meshes with such relief on their own surface.
+    pub mesh_relief_share: f32,
+    /// Share of objects, of any shape, with grooves or grains a few pixels wide, which are darker the deeper
+    /// they are for their width.
+    pub fine_relief_share: f32,
+    /// Share of turned shapes that are open and seen into: bowls, cups.
+    pub open_vessel_share: f32,
     /// Object size in pixels that crops are cut from, `[low, high]` in 32..=1024, log-uniform.
     pub crop_object_pixels: [f32; 2],
     /// Share of scenes seen by a camera at a finite distance.
@@ -102,6 +109,9 @@ impl Default for ShapeRecipe {
             tumbled_share: 0.1,
             relief_share: 0.5,
             strong_relief_share: 0.15,
+            mesh_relief_share: 0.25,
+            fine_relief_share: 0.2,
+            open_vessel_share: 0.2,
             crop_object_pixels: [64.0, 192.0],
             perspective_share: 0.3,
             camera_distance: [3.0, 20.0],
@@ -116,6 +126,10 @@ impl Default for ShapeRecipe {
 pub struct MaterialRecipe {
     /// Share of materials that are metal: coloured highlights, hardly any diffuse light.
     pub metal_share: f32,
+    /// Share of metals with highlights as wide as shading: sand-blasted, coarsely brushed, painted.
+    pub broad_metal_share: f32,
+    /// Share of materials, of those not measured, that are dark polished stone.
+    pub dark_stone_share: f32,
     /// Share of materials without any highlight.
     pub matte_share: f32,
     /// Share of materials with a rough, retro-reflecting diffuse term.
@@ -149,6 +163,8 @@ impl Default for MaterialRecipe {
     fn default() -> Self {
         Self {
             metal_share: 0.15,
+            broad_metal_share: 0.5,
+            dark_stone_share: 0.05,
             matte_share: 0.2,
             rough_diffuse_share: 0.35,
             sheen_share: 0.1,
@@ -236,7 +252,7 @@ impl Default for LightRecipe {
 pub struct TransportRecipe {
     /// Share of scenes with cast shadows.
     pub cast_shadow_share: f32,
-    /// Share of scenes where surfaces light each other (one bounce).
+    /// Share of scenes where surfaces light each other (one bounce, and all further ones as a factor).
     pub bounce_share: f32,
     /// Share of scenes with ambient light that is the same in all images.
     pub ambient_share: f32,

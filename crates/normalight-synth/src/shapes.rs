@@ -5,6 +5,7 @@ mod layers;
 mod library;
 mod mesh;
 mod objects;
+mod overlay;
 mod part;
 mod plate;
 mod ray;
@@ -15,4 +16,5 @@ mod view;
 
 pub(crate) use library::{Library, check_apart};
 pub(crate) use objects::{Object, object};
+pub(crate) use overlay::Overlay;
 pub(crate) use view::{Detail, View, Window};

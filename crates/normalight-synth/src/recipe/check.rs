@@ -69,6 +69,9 @@ impl SceneRecipe {
         number(field, shapes.max_tilt_degrees, 0.0, 60.0, "0..=60 degrees")?;
         share("shapes.relief_share", shapes.relief_share)?;
         share("shapes.strong_relief_share", shapes.strong_relief_share)?;
+        share("shapes.mesh_relief_share", shapes.mesh_relief_share)?;
+        share("shapes.fine_relief_share", shapes.fine_relief_share)?;
+        share("shapes.open_vessel_share", shapes.open_vessel_share)?;
         let field = "shapes.crop_object_pixels";
         let expected = "[low, high] with 32 <= low <= high <= 1024 pixels";
         range(field, shapes.crop_object_pixels, 32.0, 1024.0, expected)?;
@@ -79,6 +82,8 @@ impl SceneRecipe {
     fn validate_materials(&self) -> Result<(), SynthError> {
         let materials = &self.materials;
         share("materials.metal_share", materials.metal_share)?;
+        share("materials.broad_metal_share", materials.broad_metal_share)?;
+        share("materials.dark_stone_share", materials.dark_stone_share)?;
         share("materials.matte_share", materials.matte_share)?;
         share(
             "materials.rough_diffuse_share",

@@ -44,10 +44,15 @@ fn classic() -> SceneRecipe {
             plate: 0.0,
             tumbled_share: 0.7,
             strong_relief_share: 0.4,
+            mesh_relief_share: 0.0,
+            fine_relief_share: 0.0,
+            open_vessel_share: 0.0,
             perspective_share: 0.0,
             ..ShapeRecipe::default()
         },
         materials: MaterialRecipe {
+            broad_metal_share: 0.0,
+            dark_stone_share: 0.0,
             mixed_share: 0.0,
             textured_share: 0.0,
             rough_texture_share: 0.0,

@@ -57,6 +57,11 @@ impl Lathe {
         along * self.half_height + across * self.widest()
     }
 
+    /// Thickness of its wall, infinite without a hollow.
+    pub(crate) fn wall(&self) -> f32 {
+        self.hollow.map_or(f32::INFINITY, |hollow| hollow.wall)
+    }
+
     fn widest(&self) -> f32 {
         // Splines overshoot a little.
         1.1 * self.radii.iter().fold(0.0f32, |a, &b| a.max(b))

@@ -73,9 +73,13 @@ pub(crate) fn object<'a>(
         }
         2 => blob(recipe, random),
         3 => {
-            let vessel = vessel(random);
+            let open = random.chance(recipe.open_vessel_share);
+            let vessel = vessel(random, open);
             let yaw = random.signed(PI);
-            let turn = upright(recipe, random, yaw);
+            let turn = match open {
+                true => from_above(random, yaw),
+                false => upright(recipe, random, yaw),
+            };
             let relief = relief(recipe, random, turn).limited(vessel.max_relief);
             let seam = random.range(0.02, 0.1);
             let body = Body::Lathe(vessel.lathe);
@@ -164,6 +168,12 @@ fn relief(recipe: &ShapeRecipe, random: &mut Random, turn: Mat3) -> Relief {
     }
     let strong = random.chance(recipe.strong_relief_share);
     Relief::draw(random, strong, turn)
+}
+
+/// As one looks into a bowl. `yaw` as of [`upright`].
+fn from_above(random: &mut Random, yaw: f32) -> Mat3 {
+    let (tilt, lean) = (random.range(25.0, 70.0), random.signed(5.0));
+    about_z(lean.to_radians()) * about_x(tilt.to_radians()) * about_y(yaw)
 }
 
 /// As people put things on a table: seen a little from above more often than from below, hardly

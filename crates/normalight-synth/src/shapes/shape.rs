@@ -1,7 +1,7 @@
 use super::lathe::Lathe;
 use super::part::Part;
 use super::plate::Plate;
-use super::relief::Relief;
+use super::relief::{Relief, TETRAHEDRON};
 use crate::noise::Lattice;
 use glam::{Mat3, Vec2, Vec3};
 
@@ -130,7 +130,8 @@ impl Shape {
     pub(crate) fn thinnest(&self) -> f32 {
         match &self.body {
             Body::Plate(plate) => plate.thickness(),
-            _ => f32::INFINITY,
+            Body::Lathe(lathe) => lathe.wall(),
+            Body::None => f32::INFINITY,
         }
     }
 
@@ -186,16 +187,9 @@ impl Shape {
         active: Active,
         spread: f32,
     ) -> Vec3 {
-        // Four corners of a tetrahedron give the gradient with four evaluations instead of six;
-        // its error grows with the spread times the curvature.
-        const CORNERS: [Vec3; 4] = [
-            Vec3::new(1.0, 1.0, 1.0),
-            Vec3::new(1.0, -1.0, -1.0),
-            Vec3::new(-1.0, 1.0, -1.0),
-            Vec3::new(-1.0, -1.0, 1.0),
-        ];
+        // The error of the differences grows with the spread times the curvature.
         let mut gradient = Vec3::ZERO;
-        for corner in CORNERS {
+        for corner in TETRAHEDRON {
             gradient += corner * self.distance(lattice, point + corner * spread, active);
         }
         gradient.normalize_or(Vec3::Z)
