@@ -48,7 +48,7 @@ impl Body {
     fn step(&self) -> f32 {
         match self {
             Self::None => 0.95,
-            Self::Lathe(_) => 0.8,
+            Self::Lathe(lathe) => lathe.step(),
             Self::Plate(plate) => plate.step(),
         }
     }
@@ -126,11 +126,12 @@ impl Shape {
         self.body.step() / (1.0 + self.relief.slope())
     }
 
-    /// Thickness of the thinnest large wall, which rays must not leap over.
-    pub(crate) fn thinnest(&self) -> f32 {
+    /// How far a ray may go at this distance on the guess that it falls evenly, without leaping over the
+    /// thinnest large wall.
+    pub(crate) fn furthest(&self, distance: f32) -> f32 {
         match &self.body {
-            Body::Plate(plate) => plate.thickness(),
-            Body::Lathe(lathe) => lathe.wall(),
+            Body::Plate(plate) => distance + plate.thickness() / 2.0,
+            Body::Lathe(lathe) => lathe.furthest(distance),
             Body::None => f32::INFINITY,
         }
     }
