@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// What a cache says about itself.
 const MARK: &str = "cache.json";
 /// Changes when stored or rendered scenes do.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A folder with one file a scene.
 pub(crate) struct SceneCache {
