@@ -45,7 +45,8 @@ pub(crate) fn vessel(random: &mut Random, open: bool) -> Vessel {
     Vessel {
         lathe,
         fittings,
-        max_relief: hollow.map_or(0.08, |hollow| 0.3 * hollow.wall),
+        // Relief is on both sides, and walls that lean are less than half as thick across.
+        max_relief: hollow.map_or(0.08, |hollow| 0.13 * hollow.wall),
     }
 }
 
