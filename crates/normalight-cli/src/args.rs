@@ -234,10 +234,13 @@ pub(crate) struct LibraryArgs {
     /// Seven in ten materials then come from it, if the recipe says nothing else.
     #[arg(long, value_name = "FILE")]
     pub(crate) merl: Option<PathBuf>,
-    /// A folder of OBJ, PLY and GLB meshes, which become a third of the objects if the recipe says
+    /// A folder or a list of OBJ, PLY and GLB meshes, which become a third of the objects if the recipe says
     /// nothing else.
+    ///
+    /// Folders are searched with those in them; a list is a text file with one path a line. Given several
+    /// times, all are drawn from equally often.
     #[arg(long, value_name = "DIR")]
-    pub(crate) meshes: Option<PathBuf>,
+    pub(crate) meshes: Vec<PathBuf>,
 }
 
 /// Measures speed.

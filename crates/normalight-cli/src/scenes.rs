@@ -1,7 +1,7 @@
 //! From a recipe's name or file to a renderer.
 use crate::args::LibraryArgs;
 use anyhow::{Context, Result};
-use normalight_synth::{Preset, Renderer, SceneRecipe};
+use normalight_synth::{MeshFolder, Preset, Renderer, SceneRecipe};
 use std::path::Path;
 
 /// Share of measured materials when a file of them is given and the recipe asks for none; measured to
@@ -19,8 +19,8 @@ pub(crate) fn renderer(recipe: &str, library: &LibraryArgs) -> Result<Renderer> 
             scene.materials.measured_share = MEASURED_SHARE;
         }
     }
-    if let Some(folder) = &library.meshes {
-        scene.shapes.mesh_folder = Some(folder.clone());
+    if !library.meshes.is_empty() {
+        scene.shapes.mesh_folders = library.meshes.iter().map(MeshFolder::new).collect();
         if scene.shapes.mesh == 0.0 {
             scene.shapes.mesh = MESH_WEIGHT;
         }

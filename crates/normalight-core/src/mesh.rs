@@ -1,3 +1,9 @@
+mod normals;
+mod sides;
+mod winding;
+
+pub use normals::CornerNormals;
+
 use crate::CoreError;
 use glam::{DVec3, Vec3};
 
@@ -78,29 +84,8 @@ impl TriangleMesh {
         })
     }
 
-    /// A smooth unit normal for each vertex: that of its triangles, weighted by their angle there,
-    /// which does not depend on how a surface is cut into triangles.
-    ///
-    /// Vertices at one place share a normal, because scans repeat vertices along the seams of
-    /// their texture. Vertices without a triangle, or whose triangles cancel out, get z.
-    pub fn vertex_normals(&self) -> Vec<Vec3> {
-        let places = self.places();
-        let mut sums = vec![DVec3::ZERO; self.positions.len()];
-        for triangle in &self.triangles {
-            let corners = triangle.map(|index| self.positions[index as usize].as_dvec3());
-            let normal = area_vector(corners).normalize_or_zero();
-            for corner in 0..3 {
-                let one = corners[(corner + 1) % 3] - corners[corner];
-                let other = corners[(corner + 2) % 3] - corners[corner];
-                let place = places[triangle[corner] as usize];
-                sums[place as usize] += normal * one.angle_between(other);
-            }
-        }
-        let normal = |&place: &u32| sums[place as usize].as_vec3().normalize_or(Vec3::Z);
-        places.iter().map(normal).collect()
-    }
-
-    /// For each vertex, one that stands for all vertices at its place.
+    /// For each vertex, one that stands for all vertices at its place: scans repeat vertices along the
+    /// seams of their texture.
     fn places(&self) -> Vec<u32> {
         // Adding zero makes minus zero plain zero.
         let key = |vertex: u32| {
@@ -119,7 +104,7 @@ impl TriangleMesh {
     }
 }
 
-/// Normal times twice the area. Double precision: squares of large coordinates overflow else.
+/// Normal times twice the area of the triangle with these corners. Double precision: squares of large coordinates overflow else.
 fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
@@ -171,7 +156,7 @@ mod tests {
         for scale in [1e-30, 1e38] {
             let positions = triangle().into_iter().map(|p| p * scale).collect();
             let mesh = TriangleMesh::new(positions, vec![[0, 1, 2]]).unwrap();
-            assert_eq!(mesh.vertex_normals(), [Vec3::Z; 3]);
+            assert_eq!(mesh.corner_normals(0.0).normals, [Vec3::Z; 3]);
         }
     }
 
@@ -181,30 +166,5 @@ mod tests {
         positions.push(Vec3::splat(9.0));
         let mesh = TriangleMesh::new(positions, vec![[0, 1, 2]]).unwrap();
         assert_eq!(mesh.bounds(), (Vec3::ZERO, Vec3::new(1.0, 1.0, 0.0)));
-        assert_eq!(mesh.vertex_normals()[3], Vec3::Z);
-    }
-
-    /// Two walls of a ridge that do not share the vertices along it: the normals there must lie
-    /// between the walls all the same, however a wall is cut.
-    #[test]
-    fn normals_are_smooth_across_seams() {
-        let positions = vec![
-            Vec3::new(0.0, 0.0, 0.0),
-            Vec3::new(-0.0, 1.0, 0.0),
-            Vec3::new(-1.0, 0.0, -1.0),
-            Vec3::new(-1.0, 1.0, -1.0),
-            Vec3::new(0.0, 0.0, -0.0),
-            Vec3::new(0.0, 1.0, 0.0),
-            Vec3::new(1.0, 0.0, -1.0),
-            Vec3::new(1.0, 1.0, -1.0),
-        ];
-        let left = [[0, 1, 2], [1, 3, 2]];
-        let right = [[4, 6, 5], [5, 6, 7]];
-        let mesh = TriangleMesh::new(positions, [left, right].concat()).unwrap();
-        let normals = mesh.vertex_normals();
-        for ridge in [0, 1, 4, 5] {
-            assert!((normals[ridge] - Vec3::Z).length() < 1e-6, "{ridge}");
-        }
-        assert!((normals[3] - Vec3::new(-1.0, 0.0, 1.0).normalize()).length() < 1e-6);
     }
 }

@@ -157,10 +157,10 @@ pub enum IoError {
         /// What was expected.
         expected: String,
     },
-    /// A file was given that is no mesh by its extension, or a folder without meshes.
+    /// A file was given that is no mesh by its extension, or a folder or list without meshes.
     #[error("{name}: found {found}, expected a mesh ({expected})")]
     NotAMesh {
-        /// The file or folder.
+        /// The file, folder or list.
         name: String,
         /// What it is instead.
         found: String,

@@ -28,6 +28,20 @@ fn format_fault(name: &str, bytes: &[u8]) -> String {
     error.to_string()
 }
 
+/// Smooth normal and place of every corner of every triangle.
+fn corners(mesh: &TriangleMesh) -> Vec<(Vec3, Vec3)> {
+    let found = mesh.corner_normals(std::f32::consts::PI);
+    let normals = found.corners.as_flattened().iter();
+    let places = mesh.triangles().as_flattened().iter();
+    normals
+        .zip(places)
+        .map(|(&normal, &place)| {
+            let place = mesh.positions()[place as usize];
+            (found.normals[normal as usize], place)
+        })
+        .collect()
+}
+
 #[test]
 fn one_cube_in_every_format() {
     let expected = TriangleMesh::new(positions(), triangles()).unwrap();
@@ -45,7 +59,7 @@ fn one_cube_in_every_format() {
         }
     }
     assert_eq!(expected.bounds(), (Vec3::NEG_ONE, Vec3::ONE));
-    for (normal, position) in expected.vertex_normals().iter().zip(expected.positions()) {
+    for (normal, position) in corners(&expected) {
         assert!(normal.dot(position.normalize()) > 0.99, "{position}");
     }
 }
@@ -64,12 +78,9 @@ fn nodes_are_placed() {
     assert!((low - Vec3::new(8.0, -1.0, -3.0)).length() < 1e-5, "{low}");
     assert!((high - Vec3::new(12.0, 1.0, 6.0)).length() < 1e-5, "{high}");
     // The mirrored cube must not be inside out.
-    for (index, normal) in mesh.vertex_normals().iter().enumerate() {
-        let centre = Vec3::new(10.0, 0.0, if index < 8 { 0.0 } else { 5.0 });
-        assert!(
-            normal.dot(mesh.positions()[index] - centre) > 0.0,
-            "{index}"
-        );
+    for (index, (normal, place)) in corners(&mesh).into_iter().enumerate() {
+        let centre = Vec3::new(10.0, 0.0, if index < 36 { 0.0 } else { 5.0 });
+        assert!(normal.dot(place - centre) > 0.0, "{index}");
     }
 }
 
@@ -298,7 +309,7 @@ fn a_million_triangles() {
         let start = Instant::now();
         let mesh = read_mesh(name, text.as_bytes()).unwrap();
         let read = start.elapsed();
-        let normals = mesh.vertex_normals();
+        let normals = mesh.clone().oriented().corner_normals(0.7).normals;
         println!(
             "{name}: read in {read:?}, normals after {:?}",
             start.elapsed()
@@ -319,9 +330,35 @@ fn folders_of_meshes() {
     let files = files.map(|name| (name, CUBE_OBJ.as_bytes()));
     write_files(place.path(), &files).unwrap();
     std::fs::create_dir(place.path().join("d.obj")).unwrap();
+    let deeper = place.path().join("b9");
+    write_files(&deeper, &[("z.obj", CUBE_OBJ)]).unwrap();
+    let names = |path: &std::path::Path| -> Vec<String> {
+        let found = mesh_files(path).unwrap();
+        let name = |file: &std::path::PathBuf| {
+            let file = file.strip_prefix(place.path()).unwrap();
+            file.to_str().unwrap().replace('\\', "/")
+        };
+        found.iter().map(name).collect()
+    };
+    let expected = ["A.ply", "b2.obj", "b9/z.obj", "b10.obj", "c.glb"];
+    assert_eq!(names(place.path()), expected);
+
+    // A list keeps its order, and does not ask whether its meshes are there.
+    let list = deeper.join("list.txt");
+    std::fs::write(&list, "# chosen\n z.obj \r\n\ngone/y.ply\n").unwrap();
+    assert_eq!(names(&list), ["b9/z.obj", "b9/gone/y.ply"]);
+    for (text, expected) in [
+        ("z.obj\nnotes.md\n", "\"notes.md\""),
+        ("# none\n", "a list without any"),
+        ("\u{1}\u{2}\n", "a list with"),
+    ] {
+        std::fs::write(&list, text).unwrap();
+        let error = mesh_files(&list).unwrap_err().to_string();
+        assert!(error.contains("list.txt: found"), "{error}");
+        assert!(error.contains(expected), "{error}");
+    }
+
     let found = mesh_files(place.path()).unwrap();
-    let names: Vec<_> = found.iter().map(|path| path.file_name().unwrap()).collect();
-    assert_eq!(names, ["A.ply", "b2.obj", "b10.obj", "c.glb"]);
     assert_eq!(read_mesh_file(&found[1]).unwrap().triangles().len(), 12);
     let error = read_mesh_file(&found[0]).unwrap_err();
     assert!(error.to_string().contains("A.ply"), "{error}");

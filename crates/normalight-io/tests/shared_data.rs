@@ -130,6 +130,6 @@ fn scanned_meshes_are_read() {
         println!("{}: {vertices} {triangles} {low} {high}", file.display());
         assert!(triangles > 500 && (high - low).min_element() > 0.0);
         let unit = |normal: &normalight_core::Vec3| (normal.length() - 1.0).abs() < 1e-4;
-        assert!(mesh.vertex_normals().iter().all(unit));
+        assert!(mesh.corner_normals(0.7).normals.iter().all(unit));
     }
 }

@@ -24,8 +24,8 @@ mod shapes;
 pub use error::SynthError;
 pub use random::scrambled;
 pub use recipe::{
-    CameraRecipe, LightRecipe, MaterialRecipe, Preset, SamplingRecipe, SceneRecipe, ShapeRecipe,
-    TransportRecipe,
+    CameraRecipe, LightRecipe, MaterialRecipe, MeshFolder, Preset, SamplingRecipe, SceneRecipe,
+    ShapeRecipe, TransportRecipe,
 };
 pub use renderer::{Framing, Renderer};
 pub use sample::{BitDepth, Sample};

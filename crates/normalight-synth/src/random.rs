@@ -12,6 +12,7 @@ pub(crate) enum Stream {
     Framing,
     Camera,
     Crop,
+    Overlay,
 }
 
 /// A number without any visible relation to those of its neighbours: the step and the finaliser of

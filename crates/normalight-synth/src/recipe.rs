@@ -1,7 +1,9 @@
 //! The numbers that describe a distribution of samples.
 mod check;
+mod meshes;
 mod preset;
 
+pub use meshes::MeshFolder;
 pub use preset::Preset;
 
 use serde::{Deserialize, Serialize};
@@ -52,11 +54,19 @@ pub struct ShapeRecipe {
     pub statue: f32,
     /// Weight of flat objects: coins, plaques, carved stone, cloth, bark.
     pub plate: f32,
-    /// Weight of the meshes in `mesh_folder`.
+    /// Weight of the meshes in `mesh_folders`.
     pub mesh: f32,
-    /// Folder of OBJ, PLY and GLB files; needed when `mesh` is positive.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_folder: Option<PathBuf>,
+    /// Where meshes come from; needed when `mesh` is positive. In files `mesh_folder = "x"` is short for
+    /// one folder alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mesh_folders: Vec<MeshFolder>,
+    /// Where the meshes of validation objects come from instead, see [`crate::Renderer::validation`]; no
+    /// file may be in both. None given: from `mesh_folders`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub validation_meshes: Vec<MeshFolder>,
+    /// Angle in degrees, 0..=180, above which the faces of a mesh meet in an edge; up to it they are
+    /// smooth.
+    pub crease_degrees: f32,
     /// Largest tilt of upright objects towards or away from the camera, degrees in 0..=60.
     pub max_tilt_degrees: f32,
     /// Share of upright objects in any orientation instead.
@@ -65,6 +75,13 @@ pub struct ShapeRecipe {
     pub relief_share: f32,
     /// Share of the objects with relief where it is strong and detailed.
     pub strong_relief_share: f32,
+    /// Share of meshes with such relief on their own surface.
+    pub mesh_relief_share: f32,
+    /// Share of objects, of any shape, with grooves or grains a few pixels wide, which are darker the deeper
+    /// they are for their width.
+    pub fine_relief_share: f32,
+    /// Share of turned shapes that are open and seen into: bowls, cups.
+    pub open_vessel_share: f32,
     /// Object size in pixels that crops are cut from, `[low, high]` in 32..=1024, log-uniform.
     pub crop_object_pixels: [f32; 2],
     /// Share of scenes seen by a camera at a finite distance.
@@ -85,11 +102,16 @@ impl Default for ShapeRecipe {
             statue: 0.25,
             plate: 0.15,
             mesh: 0.0,
-            mesh_folder: None,
+            mesh_folders: Vec::new(),
+            validation_meshes: Vec::new(),
+            crease_degrees: 40.0,
             max_tilt_degrees: 25.0,
             tumbled_share: 0.1,
             relief_share: 0.5,
             strong_relief_share: 0.15,
+            mesh_relief_share: 0.25,
+            fine_relief_share: 0.2,
+            open_vessel_share: 0.2,
             crop_object_pixels: [64.0, 192.0],
             perspective_share: 0.3,
             camera_distance: [3.0, 20.0],
@@ -104,6 +126,10 @@ impl Default for ShapeRecipe {
 pub struct MaterialRecipe {
     /// Share of materials that are metal: coloured highlights, hardly any diffuse light.
     pub metal_share: f32,
+    /// Share of metals with highlights as wide as shading: sand-blasted, coarsely brushed, painted.
+    pub broad_metal_share: f32,
+    /// Share of materials, of those not measured, that are dark polished stone.
+    pub dark_stone_share: f32,
     /// Share of materials without any highlight.
     pub matte_share: f32,
     /// Share of materials with a rough, retro-reflecting diffuse term.
@@ -137,6 +163,8 @@ impl Default for MaterialRecipe {
     fn default() -> Self {
         Self {
             metal_share: 0.15,
+            broad_metal_share: 0.5,
+            dark_stone_share: 0.05,
             matte_share: 0.2,
             rough_diffuse_share: 0.35,
             sheen_share: 0.1,
@@ -224,7 +252,7 @@ impl Default for LightRecipe {
 pub struct TransportRecipe {
     /// Share of scenes with cast shadows.
     pub cast_shadow_share: f32,
-    /// Share of scenes where surfaces light each other (one bounce).
+    /// Share of scenes where surfaces light each other (one bounce, and all further ones as a factor).
     pub bounce_share: f32,
     /// Share of scenes with ambient light that is the same in all images.
     pub ambient_share: f32,

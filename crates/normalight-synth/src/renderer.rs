@@ -3,7 +3,7 @@ use crate::materials::Measured;
 use crate::recipe::SceneRecipe;
 use crate::sample::Sample;
 use crate::scene::{Scene, Stage};
-use crate::shapes::Mesh;
+use crate::shapes::{Library, check_apart};
 
 /// What part of the object a sample shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub enum Framing {
 /// Draws samples from a recipe; everything it does depends on the recipe and the sample's number alone.
 pub struct Renderer {
     recipe: SceneRecipe,
-    meshes: Vec<Mesh>,
+    meshes: Library,
     measured: Vec<Measured>,
 }
 
@@ -30,14 +30,11 @@ impl Renderer {
     /// A number out of range, or a file that is missing or has other contents than expected.
     pub fn new(recipe: SceneRecipe) -> Result<Self, SynthError> {
         recipe.validate()?;
-        let mut meshes = Vec::new();
-        if recipe.shapes.mesh > 0.0
-            && let Some(folder) = &recipe.shapes.mesh_folder
-        {
-            for file in normalight_io::mesh_files(folder)? {
-                meshes.push(Mesh::new(&normalight_io::read_mesh_file(&file)?));
-            }
-        }
+        let shapes = &recipe.shapes;
+        let meshes = match shapes.mesh > 0.0 {
+            true => Library::read(&shapes.mesh_folders, shapes.crease_degrees)?,
+            false => Library::default(),
+        };
         let measured = match &recipe.materials.measured_file {
             Some(file) if recipe.materials.measured_share > 0.0 => Measured::read(file)?,
             _ => Vec::new(),
@@ -49,24 +46,44 @@ impl Renderer {
         })
     }
 
+    /// The renderer of validation objects: the same, but for the meshes where the recipe names others for
+    /// validation.
+    ///
+    /// # Errors
+    /// Folders or files that cannot be read, or a mesh that is in both lists.
+    pub fn validation(&self) -> Result<Self, SynthError> {
+        let shapes = &self.recipe.shapes;
+        let meshes = if shapes.validation_meshes.is_empty() || shapes.mesh == 0.0 {
+            self.meshes.clone()
+        } else {
+            check_apart(&shapes.mesh_folders, &shapes.validation_meshes)?;
+            Library::read(&shapes.validation_meshes, shapes.crease_degrees)?
+        };
+        Ok(self.with_meshes(meshes))
+    }
+
     /// Two renderers whose meshes differ: each has every second one of the recipe's.
     ///
     /// # Errors
-    /// As of [`Self::new`]; a folder with one mesh alone.
+    /// As of [`Self::new`]; one mesh alone.
     pub fn halves(recipe: SceneRecipe) -> Result<[Self; 2], SynthError> {
         let whole = Self::new(recipe)?;
         if whole.meshes.len() == 1 {
             return Err(SynthError::OutOfRange {
-                field: "number of meshes in shapes.mesh_folder",
+                field: "number of meshes in shapes.mesh_folders",
                 found: "1".into(),
                 expected: "2 or more, to give each half of a search its own",
             });
         }
-        Ok([0, 1].map(|half| Self {
-            recipe: whole.recipe.clone(),
-            meshes: whole.meshes.iter().skip(half).step_by(2).cloned().collect(),
-            measured: whole.measured.clone(),
-        }))
+        Ok([0, 1].map(|half| whole.with_meshes(whole.meshes.half(half))))
+    }
+
+    fn with_meshes(&self, meshes: Library) -> Self {
+        Self {
+            recipe: self.recipe.clone(),
+            meshes,
+            measured: self.measured.clone(),
+        }
     }
 
     /// The recipe.
@@ -140,7 +157,7 @@ mod tests {
         };
         let renderer = Renderer {
             recipe,
-            meshes: Vec::new(),
+            meshes: Library::default(),
             measured: (0..8).map(Measured::for_tests).collect(),
         };
         for number in 0..60 {

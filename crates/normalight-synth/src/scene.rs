@@ -10,12 +10,12 @@ pub use photographs::Labelled;
 pub(crate) use points::Points;
 
 use crate::camera::{Camera, Visible};
-use crate::lighting::{Bounces, Lamp, Shadows, lamps, tinted};
+use crate::lighting::{Bounces, Lamp, Shadows, lamps, narrow, open_sky, tinted};
 use crate::materials::{Measured, Paint, Surfaces, shade};
 use crate::random::{Random, Stream};
 use crate::recipe::{SceneRecipe, TransportRecipe};
 use crate::sample::Sample;
-use crate::shapes::{Mesh, Object, View, object};
+use crate::shapes::{Library, Object, Overlay, View, object};
 use crops::Crops;
 use framing::frame;
 use symmetry::Symmetry;
@@ -32,7 +32,7 @@ const LARGEST_SIDE: usize = 640;
 /// What the drawing of a scene starts from.
 pub(crate) struct Stage<'a> {
     pub(crate) recipe: &'a SceneRecipe,
-    pub(crate) meshes: &'a [Mesh],
+    pub(crate) meshes: &'a Library,
     pub(crate) measured: &'a [Measured],
     pub(crate) seed: u64,
 }
@@ -67,7 +67,7 @@ impl Scene {
     pub(crate) fn of_whole(stage: &Stage, lamps: usize, side: usize) -> Self {
         let random = Random::new(stage.seed, Stream::Framing);
         let (object, view) = Self::draw(stage, &random, side);
-        Self::render(stage, view, None, lamps, object.reach())
+        Self::render(stage, &object, view, None, lamps)
     }
 
     /// An object large enough to cut crops of `size` pixels from.
@@ -80,7 +80,7 @@ impl Scene {
         loop {
             let crops = Crops::new(&view, size);
             if crops.best_cover() >= MIN_COVER || side >= largest {
-                return Self::render(stage, view, Some(crops), lamps, object.reach());
+                return Self::render(stage, &object, view, Some(crops), lamps);
             }
             side = ((side as f32 * NEARER) as usize).min(largest);
             view = frame(&object, &stage.recipe.shapes, &mut random.clone(), side);
@@ -105,19 +105,23 @@ impl Scene {
 
     fn render(
         stage: &Stage,
-        view: View,
+        object: &Object,
+        mut view: View,
         crops: Option<Crops>,
         lamp_count: usize,
-        reach: f32,
     ) -> Self {
         let recipe = stage.recipe;
-        let points = Points::new(&view);
+        let mut random = Random::new(stage.seed, Stream::Overlay);
+        let is_mesh = matches!(object, Object::Mesh(_));
+        let overlay = Overlay::draw(&recipe.shapes, &mut random, is_mesh, view.window.pitch);
+        let grooves = overlay.apply(&mut view);
+        let points = Points::new(&view).with_grooves(&grooves);
         let mut random = Random::new(stage.seed, Stream::Material);
         let paint = Paint::draw(&recipe.materials, stage.measured, &mut random);
         let surfaces = Surfaces::new(&paint, &points.places, &points.normals);
         let transport = Transport::draw(&recipe.transport, &mut random);
         let mut random = Random::new(stage.seed, Stream::Lights);
-        let lamps = lamps(&recipe.lights, &mut random, lamp_count, reach);
+        let lamps = lamps(&recipe.lights, &mut random, lamp_count, object.reach());
         let radiance = transport.light(&view, &points, &surfaces, paint.measured(), &lamps);
         let ambient = (transport.ambient > 0.0).then(|| ambient(&points, &surfaces, &transport));
         let seed = stage.seed;
@@ -324,6 +328,7 @@ impl Transport {
                     *lit = all[pixel as usize];
                 }
             }
+            narrow(lamp, points, &mut lit);
             let mut planes = std::array::from_fn(|_| vec![0.0; count]);
             shade(points, surfaces, measured, lamp, &lit, &mut planes);
             radiance.push(planes);
@@ -339,13 +344,15 @@ impl Transport {
     }
 }
 
-/// What the room's light adds: more on surfaces that face the camera's side.
+/// What the room's light adds: more on surfaces that face the camera's side, less in grooves.
 fn ambient(points: &Points, surfaces: &Surfaces, transport: &Transport) -> [Vec<f32>; 3] {
+    let facing = points.normal[2].iter().map(|z| 0.5 + 0.5 * z);
+    let mut arriving: Vec<f32> = facing.map(|share| transport.ambient * share).collect();
+    for (arriving, &ratio) in arriving.iter_mut().zip(&points.grooves) {
+        *arriving *= open_sky(ratio);
+    }
     std::array::from_fn(|channel| {
         let scattered = surfaces.scattered[channel].iter();
-        scattered
-            .zip(&points.normal[2])
-            .map(|(scattered, z)| scattered * (transport.ambient * (0.5 + 0.5 * z)))
-            .collect()
+        scattered.zip(&arriving).map(|(s, a)| s * a).collect()
     })
 }

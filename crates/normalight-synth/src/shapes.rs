@@ -1,8 +1,11 @@
 //! What is photographed: solids as signed distances, and meshes.
 mod figures;
 mod lathe;
+mod layers;
+mod library;
 mod mesh;
 mod objects;
+mod overlay;
 mod part;
 mod plate;
 mod ray;
@@ -11,6 +14,7 @@ mod shape;
 mod vessels;
 mod view;
 
-pub(crate) use mesh::Mesh;
+pub(crate) use library::{Library, check_apart};
 pub(crate) use objects::{Object, object};
+pub(crate) use overlay::Overlay;
 pub(crate) use view::{Detail, View, Window};

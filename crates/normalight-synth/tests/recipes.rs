@@ -1,6 +1,6 @@
 //! Recipes as text.
 
-use normalight_synth::{Framing, Preset, Renderer, SceneRecipe, SynthError};
+use normalight_synth::{Framing, MeshFolder, Preset, Renderer, SceneRecipe, SynthError};
 use std::path::Path;
 
 fn parsed(text: &str) -> SceneRecipe {
@@ -39,10 +39,40 @@ fn what_a_file_leaves_out_comes_from_its_preset() {
 
 #[test]
 fn paths_start_at_the_recipe() {
-    let text = "[materials]\nmeasured_file = \"merl.npz\"\n";
+    let text = "[materials]\nmeasured_file = \"merl.npz\"\n[shapes]\n\
+                mesh_folders = [{ path = \"statues\" }, { path = \"cups.txt\", weight = 2 }]\n\
+                validation_meshes = [{ path = \"others\" }]\n";
     let recipe = SceneRecipe::from_toml(Path::new("some/where/recipe.toml"), text).unwrap();
     let expected = Path::new("some/where/merl.npz");
     assert_eq!(recipe.materials.measured_file.unwrap(), expected);
+    let mut cups = MeshFolder::new("some/where/cups.txt");
+    cups.weight = 2.0;
+    let statues = MeshFolder::new("some/where/statues");
+    assert_eq!(recipe.shapes.mesh_folders, [statues, cups]);
+    let others = MeshFolder::new("some/where/others");
+    assert_eq!(recipe.shapes.validation_meshes, [others]);
+}
+
+#[test]
+fn one_folder_of_meshes_may_be_named_alone() {
+    let recipe = parsed("[shapes]\nmesh_folder = \"statues\"\n");
+    assert_eq!(recipe.shapes.mesh_folders, [MeshFolder::new("statues")]);
+    let both = "[shapes]\nmesh_folder = \"a\"\nmesh_folders = []\n";
+    assert!(message(both).contains("one of them expected"));
+    let list = "[shapes]\nmesh_folder = [\"a\"]\n";
+    assert!(message(list).contains("mesh_folders = [{ path"));
+}
+
+#[test]
+fn weights_of_folders_are_checked() {
+    let folders = |weight: &str| {
+        let folder = format!("{{ path = \"a\", weight = {weight} }}");
+        message(&format!("[shapes]\nmesh = 1\nmesh_folders = [{folder}]\n"))
+    };
+    let expected = "shapes.mesh_folders: -1 found, a weight in 0..=1000000 expected";
+    assert_eq!(folders("-1"), expected);
+    assert!(folders("nan").starts_with("shapes.mesh_folders: NaN found"));
+    assert!(folders("0").starts_with("shapes.mesh_folders: all weights are 0"));
 }
 
 #[test]
@@ -102,11 +132,17 @@ fn files_that_are_needed_must_be_named_and_there() {
         message("[materials]\nmeasured_share = 0.5\n")
             .starts_with("materials.measured_file: nothing")
     );
-    assert!(message("[shapes]\nmesh = 0.5\n").starts_with("shapes.mesh_folder: nothing"));
+    assert!(message("[shapes]\nmesh = 0.5\n").starts_with("shapes.mesh_folders: nothing"));
     let text = "[materials]\nmeasured_share = 0.5\nmeasured_file = \"none.npz\"\n";
     assert!(message(text).contains("none.npz"));
-    let text = "[shapes]\nmesh = 0.5\nmesh_folder = \"no-meshes\"\n";
-    assert!(message(text).contains("no-meshes"));
+    for meshes in [
+        "mesh_folder = \"none\"",
+        "mesh_folders = [{ path = \"none\" }]",
+    ] {
+        let text = format!("[shapes]\nmesh = 0.5\n{meshes}\n");
+        let found = message(&text);
+        assert!(found.contains("none"), "{found}");
+    }
 }
 
 #[test]
@@ -121,48 +157,96 @@ fn broken_meshes_are_named() {
         std::fs::write(&path, text).unwrap();
         let mut recipe = Preset::World.recipe();
         recipe.shapes.mesh = 1.0;
-        recipe.shapes.mesh_folder = Some(folder.path().to_owned());
+        recipe.shapes.mesh_folders = vec![MeshFolder::new(folder.path())];
         let error = Renderer::new(recipe).map(|_| ()).unwrap_err().to_string();
         assert!(error.contains(name), "{error}");
         std::fs::remove_file(path).unwrap();
     }
 }
 
+/// A box as OBJ, two wide and deep.
+fn box_of(height: f32) -> String {
+    let corners = (0..8).map(|corner: usize| {
+        let at = |bit: usize| if corner >> bit & 1 == 1 { 1.0 } else { -1.0f32 };
+        format!("v {} {} {}\n", at(0), height * at(1), at(2))
+    });
+    let faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    corners.collect::<String>() + faces
+}
+
+/// A folder with one box in a folder of its own.
+fn folder_of(height: f32) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let deeper = folder.path().join("deeper");
+    std::fs::create_dir(&deeper).unwrap();
+    std::fs::write(deeper.join(format!("box{height}.obj")), box_of(height)).unwrap();
+    folder
+}
+
+/// Meshes and nothing else, nearly.
+fn recipe_of(folders: &[&Path]) -> SceneRecipe {
+    let mut recipe = Preset::World.recipe();
+    recipe.shapes.mesh = 1e6;
+    recipe.shapes.mesh_folders = folders.iter().map(|f| MeshFolder::new(*f)).collect();
+    recipe
+}
+
+fn normals(renderer: &Renderer, number: u64) -> Vec<[f32; 3]> {
+    let normals = renderer.sample(number, 3, 32, Framing::WholeObject).normals;
+    normals.iter().map(|normal| normal.to_array()).collect()
+}
+
 /// Each half shows the meshes of its own: the same samples as from a folder that holds no others.
 #[test]
 fn halves_share_no_mesh() {
-    let box_of = |height: f32| {
-        let corners = (0..8).map(|corner: usize| {
-            let at = |bit: usize| if corner >> bit & 1 == 1 { 1.0 } else { -1.0f32 };
-            format!("v {} {} {}\n", at(0), height * at(1), at(2))
-        });
-        let faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-        corners.collect::<String>() + faces
-    };
-    let recipe = |folder: &std::path::Path| {
-        let mut recipe = Preset::World.recipe();
-        // Nothing else, nearly.
-        recipe.shapes.mesh = 1e6;
-        recipe.shapes.mesh_folder = Some(folder.to_owned());
-        recipe
-    };
-    let both = tempfile::tempdir().unwrap();
-    let alone = [1.0, 3.0].map(|height| {
-        let folder = tempfile::tempdir().unwrap();
-        let name = format!("box{height}.obj");
-        for place in [&both, &folder] {
-            std::fs::write(place.path().join(&name), box_of(height)).unwrap();
-        }
-        folder
-    });
-    let halves = Renderer::halves(recipe(both.path())).unwrap();
-    let sample = |renderer: &Renderer| renderer.sample(7, 3, 32, Framing::WholeObject).normals;
-    let found = halves.each_ref().map(sample);
-    let expected = alone
-        .each_ref()
-        .map(|folder| sample(&Renderer::new(recipe(folder.path())).unwrap()));
+    let alone = [1.0, 3.0].map(folder_of);
+    let paths = alone.each_ref().map(|folder| folder.path());
+    let halves = Renderer::halves(recipe_of(&paths)).unwrap();
+    let found = halves.each_ref().map(|half| normals(half, 7));
+    let expected = paths.map(|path| normals(&Renderer::new(recipe_of(&[path])).unwrap(), 7));
     assert_eq!(found, expected);
     assert_ne!(found[0], found[1]);
-    let error = Renderer::halves(recipe(alone[0].path())).err().unwrap();
+    let error = Renderer::halves(recipe_of(&paths[..1])).err().unwrap();
     assert!(error.to_string().contains("1 found, 2 or more"), "{error}");
+}
+
+/// How often either of two boxes is drawn, told by what each looks like alone.
+#[test]
+fn folders_are_drawn_by_their_weight() {
+    let alone = [1.0, 3.0].map(folder_of);
+    let paths = alone.each_ref().map(|folder| folder.path());
+    let mut recipe = recipe_of(&paths);
+    recipe.shapes.mesh_folders[1].weight = 3.0;
+    let both = Renderer::new(recipe).unwrap();
+    let single = Renderer::new(recipe_of(&paths[..1])).unwrap();
+    let first = (0..200).filter(|&k| normals(&both, k) == normals(&single, k));
+    // 50 expected, with a deviation of 6.
+    let count = first.count();
+    assert!((30..70).contains(&count), "{count} of 200");
+}
+
+#[test]
+fn validation_has_meshes_of_its_own() {
+    let folders = [1.0, 3.0].map(folder_of);
+    let [ours, others] = folders.each_ref().map(|folder| folder.path());
+    let list = ours.join("list.txt");
+    std::fs::write(&list, "# boxes\n\ndeeper/box1.obj\n").unwrap();
+    let mut recipe = recipe_of(&[&list]);
+    let plain = Renderer::new(recipe.clone()).unwrap();
+    let validation = plain.validation().unwrap();
+    assert_eq!(normals(&validation, 5), normals(&plain, 5));
+
+    recipe.shapes.validation_meshes = vec![MeshFolder::new(others)];
+    let renderer = Renderer::new(recipe.clone()).unwrap();
+    assert_eq!(normals(&renderer, 5), normals(&plain, 5));
+    let validation = renderer.validation().unwrap();
+    let expected = Renderer::new(recipe_of(&[others])).unwrap();
+    assert_eq!(normals(&validation, 5), normals(&expected, 5));
+
+    // The list names a mesh of the folder.
+    recipe.shapes.validation_meshes = vec![MeshFolder::new(ours)];
+    let error = Renderer::new(recipe).unwrap().validation().err().unwrap();
+    let error = error.to_string();
+    assert!(error.starts_with("shapes.validation_meshes: "), "{error}");
+    assert!(error.contains("box1.obj found"), "{error}");
 }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// What a cache says about itself.
 const MARK: &str = "cache.json";
 /// Changes when stored or rendered scenes do.
-const VERSION: u32 = 1;
+const VERSION: u32 = 3;
 
 /// A folder with one file a scene.
 pub(crate) struct SceneCache {
@@ -23,8 +23,8 @@ pub(crate) struct SceneCache {
 #[serde(deny_unknown_fields)]
 struct Mark {
     version: u32,
-    /// SHA-256 of the scene's settings but for the camera and the number of crops, which do not change
-    /// what is stored.
+    /// SHA-256 of the scene's settings but for the camera, the number of crops and the meshes of validation,
+    /// which do not change what is stored.
     scene: String,
     /// Whole objects or crops.
     view: String,
@@ -39,6 +39,7 @@ impl Mark {
         let mut scene = recipe.scene.clone();
         scene.camera = Default::default();
         scene.sampling.crops_per_scene = 1;
+        scene.shapes.validation_meshes.clear();
         let text = toml::to_string(&scene).map_err(|error| TrainError::Recipe {
             file: "scene".into(),
             reason: error.to_string(),

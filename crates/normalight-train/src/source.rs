@@ -22,6 +22,8 @@ pub(crate) enum Source {
 /// Scenes rendered when they are needed.
 pub(crate) struct Rendered {
     renderer: Renderer,
+    /// Of validation objects.
+    validation: Renderer,
     cache: Option<SceneCache>,
     /// Added to the numbers of scenes.
     first: u64,
@@ -47,6 +49,7 @@ impl Source {
             let cache = recipe.cache.as_ref();
             let cache = cache.map(|cache| SceneCache::open(cache, recipe, framing));
             return Ok(Self::Rendered(Box::new(Rendered {
+                validation: renderer.validation()?,
                 renderer,
                 cache: cache.transpose()?,
                 first: 0,
@@ -67,17 +70,16 @@ impl Source {
             let half = |second| Published::open(recipe, published, second);
             return Ok([half(false)?, half(true)?].map(|half| Self::Published(Box::new(half))));
         }
-        let renderers = Renderer::halves(recipe.scene.clone())?;
-        let mut first = 0;
-        Ok(renderers.map(|renderer| {
-            let rendered = Rendered {
+        let half = |renderer: Renderer, first| -> Result<Self, TrainError> {
+            Ok(Self::Rendered(Box::new(Rendered {
+                validation: renderer.validation()?,
                 renderer,
                 cache: None,
                 first,
-            };
-            first = SECOND_HALF_NUMBERS;
-            Self::Rendered(Box::new(rendered))
-        }))
+            })))
+        };
+        let [one, other] = Renderer::halves(recipe.scene.clone())?;
+        Ok([half(one, 0)?, half(other, SECOND_HALF_NUMBERS)?])
     }
 
     /// Scene `number`, fit for samples of up to `images` images and `size` pixels.
@@ -111,7 +113,7 @@ impl Source {
         }
     }
 
-    /// Whole unseen objects, for validation.
+    /// Whole unseen objects, for validation; of meshes that are not trained on where the recipe names such.
     pub(crate) fn validation_objects(
         &self,
         recipe: &TrainRecipe,
@@ -122,12 +124,10 @@ impl Source {
         match self {
             Self::Rendered(rendered) => Ok(numbers
                 .map(|number| {
-                    rendered.renderer.sample(
-                        number,
-                        VALIDATION_IMAGES,
-                        pixels,
-                        Framing::WholeObject,
-                    )
+                    let whole = Framing::WholeObject;
+                    rendered
+                        .validation
+                        .sample(number, VALIDATION_IMAGES, pixels, whole)
                 })
                 .collect()),
             Self::Published(published) => {

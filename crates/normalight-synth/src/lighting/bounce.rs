@@ -7,14 +7,19 @@ use std::f32::consts::PI;
 
 /// Patches a side that pass light on.
 const PATCHES: usize = 12;
+/// Largest share that comes again: where patches touch, form factors are rough.
+const MOST_AGAIN: f32 = 0.9;
 /// Exchange smaller than this is not worth following.
 const MIN_EXCHANGE: f32 = 1e-4;
 
-/// One bounce of light between facing parts of an object: what makes hollows brighter.
+/// Light that bounces between facing parts of an object: what makes hollows brighter, and their colour
+/// stronger.
 ///
 /// The object's visible side is divided into patches; each receives the lamps' light (shadows included)
 /// and passes what it scatters on to every point that faces it. What stands between a patch and a point
-/// is not asked.
+/// is not asked. Of what arrives at a point the share `g` that its patches would send back on comes again,
+/// and of that again, so the first bounce counts `1 / (1 - g)` times: the sum of the Neumann series where
+/// `g`, albedo times form factors, is the same all over, exact inside an evenly lit sphere.
 pub(crate) struct Bounces {
     patches: Vec<Patch>,
     /// Patch of each point.
@@ -61,7 +66,7 @@ impl Bounces {
         Self { patches, owner }
     }
 
-    /// Adds the light that has bounced once to `radiance`.
+    /// Adds the light that has bounced to `radiance`.
     ///
     /// - `irradiance`: for every lamp the light that falls on each point, relative to a lamp of intensity
     ///   1 that faces it, shadows included; padded
@@ -77,6 +82,7 @@ impl Bounces {
             return;
         }
         let leaving = self.leaving(surfaces, irradiance);
+        let albedo = self.leaving(surfaces, &[vec![1.0; points.normal[0].len()]]);
         vectorised(
             #[inline(always)]
             || {
@@ -86,20 +92,25 @@ impl Bounces {
                     if near.is_empty() {
                         continue;
                     }
+                    let of = |planes: &[f32], row: usize| {
+                        let first = row * self.patches.len();
+                        falling(&planes[first..first + self.patches.len()], &near)
+                    };
+                    // What a point scatters of all bounces, relative to what falls on it with the first.
+                    let scattered: [Lanes; 3] = std::array::from_fn(|channel| {
+                        let mut scattered = *lanes(&surfaces.scattered[channel], start);
+                        let again = of(&albedo, channel);
+                        for lane in 0..LANES {
+                            scattered[lane] /= 1.0 - again[lane].min(MOST_AGAIN);
+                        }
+                        scattered
+                    });
                     for (lamp, planes) in radiance.iter_mut().enumerate() {
                         for (channel, plane) in planes.iter_mut().enumerate() {
-                            let row = (lamp * 3 + channel) * self.patches.len();
-                            let leaving = &leaving[row..row + self.patches.len()];
-                            let mut falling = [0.0; LANES];
-                            for (patch, exchange) in &near {
-                                for lane in 0..LANES {
-                                    falling[lane] += leaving[*patch] * exchange[lane];
-                                }
-                            }
-                            let scattered = lanes(&surfaces.scattered[channel], start);
+                            let falling = of(&leaving, lamp * 3 + channel);
                             let plane = lanes_mut(plane, start);
                             for lane in 0..LANES {
-                                plane[lane] += scattered[lane] * falling[lane];
+                                plane[lane] += scattered[channel][lane] * falling[lane];
                             }
                         }
                     }
@@ -166,6 +177,18 @@ impl Bounces {
             }
         }
     }
+}
+
+/// What arrives at sixteen points of what leaves the patches.
+#[inline(always)]
+fn falling(leaving: &[f32], near: &[(usize, Lanes)]) -> Lanes {
+    let mut falling = [0.0; LANES];
+    for (patch, exchange) in near {
+        for lane in 0..LANES {
+            falling[lane] += leaving[*patch] * exchange[lane];
+        }
+    }
+    falling
 }
 
 impl Patch {

@@ -6,6 +6,9 @@ use crate::random::Random;
 use crate::recipe::MaterialRecipe;
 use glam::{Mat3, Vec3};
 
+/// Fit of the light that a lobe of rough facets loses, see [`between_facets`].
+const LOST: [f32; 3] = [0.2256, 1.1638, -0.8221];
+
 /// A paint: one substance, or several that meet along a noisy border.
 #[derive(Debug, Clone)]
 pub(crate) struct Paint {
@@ -90,15 +93,19 @@ impl Substance {
             measured.push(library[random.below(library.len())].clone());
             measured.len() - 1
         });
+        let stone = number.is_none() && random.chance(recipe.dark_stone_share);
         let mut surface = match number {
             // Without any light of its own.
             Some(_) => Surface::MATTE,
+            None if stone => dark_stone(random),
             None => modelled(recipe, random),
         };
         surface.axis = random.direction();
         let coloured = random.chance(recipe.textured_share).then(|| {
             let pattern = Pattern::draw(random);
-            (pattern, colour(recipe, random))
+            // Dark stone has dark grains and veins.
+            let strength = if stone { 0.2 } else { 1.0 };
+            (pattern, colour(recipe, random) * strength)
         });
         if let Some(number) = number {
             surface.measured[number] = Vec3::ONE;
@@ -137,12 +144,16 @@ impl Substance {
 
 /// A substance of diffuse light and highlights by formula.
 fn modelled(recipe: &MaterialRecipe, random: &mut Random) -> Surface {
+    let metal = random.chance(recipe.metal_share);
+    if metal && random.chance(recipe.broad_metal_share) {
+        return broad_metal(recipe, random);
+    }
     let alpha = rough(recipe, random);
     let mut surface = Surface {
         alphas: [alpha; 2],
         ..Surface::MATTE
     };
-    if random.chance(recipe.metal_share) {
+    if metal {
         surface.f0 = metal_colour(random);
         surface.albedo = colour(recipe, random) * random.range(0.0, 0.2);
         surface.weights[0] = 1.0;
@@ -173,6 +184,53 @@ fn modelled(recipe: &MaterialRecipe, random: &mut Random) -> Surface {
         surface.sheen = random.range(0.05, 0.5) * surface.albedo.max_element();
     }
     surface
+}
+
+/// Metal whose highlights are as wide as shading: blasted with sand, coarsely brushed, or painted with
+/// flakes of metal under a gloss.
+fn broad_metal(recipe: &MaterialRecipe, random: &mut Random) -> Surface {
+    let alpha = random.log_range(0.3, 0.9);
+    let mut surface = Surface {
+        f0: metal_colour(random),
+        alphas: [alpha; 2],
+        weights: [1.0, 0.0],
+        ..Surface::MATTE
+    };
+    match random.below(3) {
+        0 => {}
+        1 => {
+            let stretch = random.log_range(1.3, 3.0);
+            surface.alphas = [(alpha * stretch).min(1.0), alpha / stretch];
+        }
+        _ => {
+            // The gloss reflects about 4 %, the flakes most of the rest; paint may have any colour.
+            surface.f0 = surface.f0.lerp(colour(recipe, random), random.unit());
+            surface.alphas = [random.log_range(0.04, 0.15); 2];
+            surface.wide_alpha = alpha;
+            surface.weights = [0.04 / surface.f0.max_element().max(0.1), 0.9];
+        }
+    }
+    surface.albedo = between_facets(surface.f0, alpha) + colour(recipe, random) * 0.05;
+    surface
+}
+
+/// Light that leaves rough metal of reflectance `f0` only after several facets, which a lobe of single
+/// facets lacks, as a diffuse colour (Kulla & Conty 2017): what all directions together lose in a lobe of
+/// width `alpha`, 0.2..=0.9, is fitted to the lobe of [`super::shade`].
+pub(super) fn between_facets(f0: Vec3, alpha: f32) -> Vec3 {
+    let lost = alpha * (LOST[0] + alpha * (LOST[1] + alpha * LOST[2]));
+    f0 * f0 * (lost * (1.0 - lost)) / (Vec3::ONE - f0 * lost)
+}
+
+/// Polished: black granite, basalt, obsidian.
+fn dark_stone(random: &mut Random) -> Surface {
+    Surface {
+        albedo: (Vec3::ONE + random.vector(0.2)) * random.log_range(0.008, 0.06),
+        f0: Vec3::splat(random.range(0.035, 0.07)),
+        alphas: [random.log_range(0.03, 0.15); 2],
+        weights: [1.0, 0.0],
+        ..Surface::MATTE
+    }
 }
 
 fn rough(recipe: &MaterialRecipe, random: &mut Random) -> f32 {

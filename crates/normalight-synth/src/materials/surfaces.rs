@@ -129,7 +129,8 @@ impl Surfaces {
         self.facets[1][index] = 0.45 * variance / (variance + 0.09);
         let tangent = surface.axis.cross(normal);
         let tangent = tangent.normalize_or(normal.any_orthonormal_vector());
-        let mut scattered = surface.albedo + surface.f0 * (0.5 * surface.weights[0].min(1.0));
+        let mut scattered = surface.albedo
+            + surface.f0 * (0.5 * (surface.weights[0] + surface.weights[1]).min(1.0));
         for (k, substance) in measured.iter().enumerate() {
             scattered += surface.measured[k] * substance.scattered();
         }

@@ -1,4 +1,4 @@
-use super::SceneRecipe;
+use super::{MeshFolder, SceneRecipe};
 use crate::SynthError;
 
 impl SceneRecipe {
@@ -46,11 +46,13 @@ impl SceneRecipe {
             ],
         )?;
         needs_file(
-            "shapes.mesh_folder",
+            "shapes.mesh_folders",
             shapes.mesh,
-            shapes.mesh_folder.is_some(),
-            "a folder of meshes, because shapes.mesh is positive,",
+            !shapes.mesh_folders.is_empty(),
+            "folders of meshes, because shapes.mesh is positive,",
         )?;
+        MeshFolder::validate("shapes.mesh_folders", &shapes.mesh_folders)?;
+        MeshFolder::validate("shapes.validation_meshes", &shapes.validation_meshes)?;
         share("shapes.tumbled_share", shapes.tumbled_share)?;
         share("shapes.perspective_share", shapes.perspective_share)?;
         let expected = "[low, high] with 2 <= low <= high <= 100 object sizes";
@@ -61,10 +63,15 @@ impl SceneRecipe {
             100.0,
             expected,
         )?;
+        let field = "shapes.crease_degrees";
+        number(field, shapes.crease_degrees, 0.0, 180.0, "0..=180 degrees")?;
         let field = "shapes.max_tilt_degrees";
         number(field, shapes.max_tilt_degrees, 0.0, 60.0, "0..=60 degrees")?;
         share("shapes.relief_share", shapes.relief_share)?;
         share("shapes.strong_relief_share", shapes.strong_relief_share)?;
+        share("shapes.mesh_relief_share", shapes.mesh_relief_share)?;
+        share("shapes.fine_relief_share", shapes.fine_relief_share)?;
+        share("shapes.open_vessel_share", shapes.open_vessel_share)?;
         let field = "shapes.crop_object_pixels";
         let expected = "[low, high] with 32 <= low <= high <= 1024 pixels";
         range(field, shapes.crop_object_pixels, 32.0, 1024.0, expected)?;
@@ -75,6 +82,8 @@ impl SceneRecipe {
     fn validate_materials(&self) -> Result<(), SynthError> {
         let materials = &self.materials;
         share("materials.metal_share", materials.metal_share)?;
+        share("materials.broad_metal_share", materials.broad_metal_share)?;
+        share("materials.dark_stone_share", materials.dark_stone_share)?;
         share("materials.matte_share", materials.matte_share)?;
         share(
             "materials.rough_diffuse_share",
@@ -234,7 +243,7 @@ fn share(field: &'static str, found: f32) -> Result<(), SynthError> {
 }
 
 // Written so that NaN fails too.
-fn number(
+pub(super) fn number(
     field: &'static str,
     found: f32,
     low: f32,

@@ -44,10 +44,15 @@ fn classic() -> SceneRecipe {
             plate: 0.0,
             tumbled_share: 0.7,
             strong_relief_share: 0.4,
+            mesh_relief_share: 0.0,
+            fine_relief_share: 0.0,
+            open_vessel_share: 0.0,
             perspective_share: 0.0,
             ..ShapeRecipe::default()
         },
         materials: MaterialRecipe {
+            broad_metal_share: 0.0,
+            dark_stone_share: 0.0,
             mixed_share: 0.0,
             textured_share: 0.0,
             rough_texture_share: 0.0,
@@ -105,11 +110,11 @@ impl SceneRecipe {
 
     /// Takes the relative paths in the recipe to start at `folder`.
     pub fn resolve_paths(&mut self, folder: &Path) {
-        let paths = [
-            &mut self.shapes.mesh_folder,
-            &mut self.materials.measured_file,
-        ];
-        for path in paths.into_iter().flatten() {
+        let shapes = &mut self.shapes;
+        let meshes = shapes.mesh_folders.iter_mut();
+        let meshes = meshes.chain(&mut shapes.validation_meshes);
+        let paths = meshes.map(|meshes| &mut meshes.path);
+        for path in paths.chain(&mut self.materials.measured_file) {
             *path = folder.join(&*path);
         }
     }
@@ -147,6 +152,9 @@ impl<'de> Deserialize<'de> for SceneRecipe {
             Some(name) => Preset::deserialize(name).map_err(D::Error::custom)?,
             None => Preset::default(),
         };
+        if let Some(Value::Table(shapes)) = given.get_mut("shapes") {
+            one_folder_as_list(shapes).map_err(D::Error::custom)?;
+        }
         let mut filled = Table::try_from(preset.recipe()).map_err(D::Error::custom)?;
         overlay(&mut filled, given);
         let parts: Parts = filled.try_into().map_err(D::Error::custom)?;
@@ -159,6 +167,25 @@ impl<'de> Deserialize<'de> for SceneRecipe {
             sampling: parts.sampling,
         })
     }
+}
+
+/// Takes `mesh_folder = "x"`, one folder alone, as the list of one that it is.
+fn one_folder_as_list(shapes: &mut Table) -> Result<(), &'static str> {
+    let Some(path) = shapes.remove("mesh_folder") else {
+        return Ok(());
+    };
+    if shapes.contains_key("mesh_folders") {
+        return Err("mesh_folder beside mesh_folders found, one of them expected");
+    }
+    if !path.is_str() {
+        return Err(
+            "mesh_folder: a path expected; several folders are named by \
+                    mesh_folders = [{ path = \"x\", weight = 1.0 }]",
+        );
+    }
+    let folder = Table::from_iter([("path".to_owned(), path)]);
+    shapes.insert("mesh_folders".to_owned(), vec![Value::Table(folder)].into());
+    Ok(())
 }
 
 fn overlay(base: &mut Table, given: Table) {

@@ -14,6 +14,9 @@ pub(crate) struct Points {
     pub(crate) normal: [Vec<f32>; 3],
     /// Unit vectors towards the camera; padding looks up.
     pub(crate) to_camera: [Vec<f32>; 3],
+    /// How many times as deep as wide the narrow grooves are that the points lie in, padded; empty without
+    /// any.
+    pub(crate) grooves: Vec<f32>,
 }
 
 impl Points {
@@ -46,7 +49,18 @@ impl Points {
             pixels,
             places,
             normals,
+            grooves: Vec::new(),
         }
+    }
+
+    /// With the grooves of each pixel, if there are any.
+    pub(crate) fn with_grooves(mut self, grooves: &[f32]) -> Self {
+        if !grooves.is_empty() {
+            let of_points = self.pixels.iter().map(|&pixel| grooves[pixel as usize]);
+            self.grooves = of_points.collect();
+            self.grooves.resize(padded(self.pixels.len()), 0.0);
+        }
+        self
     }
 
     pub(crate) fn count(&self) -> usize {

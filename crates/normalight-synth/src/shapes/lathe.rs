@@ -1,5 +1,8 @@
 use glam::{Mat3, Vec2, Vec3};
 
+/// Cosine of the steepest angle that walls lean by, with radii that change by twice the height.
+const LEANING: f32 = 0.45;
+
 /// A body turned on a lathe: a radius that depends on the height along its axis.
 #[derive(Debug, Clone)]
 pub(crate) struct Lathe {
@@ -55,6 +58,18 @@ impl Lathe {
         let along = axis.truncate().abs();
         let across = (Vec2::ONE - along * along).max(Vec2::ZERO).map(f32::sqrt);
         along * self.half_height + across * self.widest()
+    }
+
+    /// How far a ray may go at this distance without leaping over a wall.
+    pub(crate) fn furthest(&self, distance: f32) -> f32 {
+        let within = |hollow: Hollow| LEANING * (distance + hollow.wall / 2.0);
+        self.hollow.map_or(f32::INFINITY, within)
+    }
+
+    /// Share of its distance that is safe to walk. The distance is right for a wall that leans as it does at
+    /// the point's height; rays that come down into a hollow meet it where it leans more.
+    pub(crate) fn step(&self) -> f32 {
+        self.hollow.map_or(0.8, |_| LEANING)
     }
 
     fn widest(&self) -> f32 {

@@ -1,17 +1,20 @@
-use super::view::{View, Window};
+use super::layers::{Layer, far_side};
+use super::view::{Detail, View, Window, faced, is_faced};
 use glam::{Mat3, Vec2, Vec3};
-use normalight_core::TriangleMesh;
+use normalight_core::{CornerNormals, TriangleMesh};
 
-/// A mesh around the origin, at most one unit from it, with a smooth normal at every vertex.
+/// A mesh around the origin, at most one unit from it, with normals that are smooth up to its edges.
 #[derive(Debug, Clone)]
 pub(crate) struct Mesh {
     positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
+    normals: CornerNormals,
 }
 
 impl Mesh {
-    pub(crate) fn new(mesh: &TriangleMesh) -> Self {
+    /// Whatever way its triangles go round; where they meet at more than `crease` degrees is an edge.
+    pub(crate) fn new(mesh: TriangleMesh, crease: f32) -> Self {
+        let mesh = mesh.oriented();
         let (low, high) = mesh.bounds();
         // By their size first, so that no square overflows.
         let size = (high * 0.5 - low * 0.5).max_element();
@@ -31,8 +34,8 @@ impl Mesh {
         let scale = 1.0 / reach.max(f32::MIN_POSITIVE);
         Self {
             positions: positions.iter().map(|&place| place * scale).collect(),
-            normals: mesh.vertex_normals(),
             triangles: mesh.triangles().to_vec(),
+            normals: mesh.corner_normals(crease.to_radians()),
         }
     }
 
@@ -74,7 +77,7 @@ impl PosedMesh<'_> {
     }
 
     /// Draws all triangles into a depth buffer; both their sides are seen.
-    pub(crate) fn view(&self, window: Window) -> View {
+    pub(crate) fn view(&self, window: Window, detail: Detail) -> View {
         // In the space of parallel rays, columns, rows and depth are linear over a triangle.
         let corners: Vec<Vec3> = self
             .places
@@ -90,62 +93,74 @@ impl PosedMesh<'_> {
             .collect();
         let area = window.width * window.height;
         let mut front = vec![f32::NEG_INFINITY; area];
-        let mut back = vec![f32::INFINITY; area];
         let mut hits = vec![None; area];
+        let mut layers = Vec::new();
         for (index, triangle) in self.mesh.triangles.iter().enumerate() {
             let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
-            fill(&window, a, b, c, |pixel, depth, weights| {
-                back[pixel] = back[pixel].min(depth);
-                if depth > front[pixel] {
-                    front[pixel] = depth;
+            fill(&window, a, b, c, |layer, weights| {
+                let pixel = layer.pixel as usize;
+                if layer.depth > front[pixel] {
+                    front[pixel] = layer.depth;
                     let triangle = index as u32;
                     hits[pixel] = Some(Hit { triangle, weights });
                 }
+                if detail == Detail::All {
+                    layers.push(layer);
+                }
             });
         }
-        let height = |depth: f32| depth / (1.0 + depth * window.inverse_distance);
-        let depth = front.iter().map(|&depth| match depth {
+        let height = |depth: f32| match depth {
             f32::NEG_INFINITY => depth,
-            depth => height(depth),
-        });
+            depth => depth / (1.0 + depth * window.inverse_distance),
+        };
+        let depth = front.iter().map(|&depth| height(depth)).collect();
+        if detail == Detail::Depth {
+            return View::of_depth(window, depth);
+        }
+        let back = far_side(layers, area);
         let normals = hits.iter().enumerate().map(|(pixel, hit)| match hit {
             Some(hit) => self.normal(hit, &window, window.ray(pixel).to_camera()),
             None => Vec3::ZERO,
         });
         View::from_planes(
             window,
-            depth.collect(),
+            depth,
             back.iter().map(|&depth| height(depth)).collect(),
             normals.collect(),
         )
     }
 
-    /// Of the side that is seen.
+    /// Of the side that is seen. Towards the edge of what is seen, normals between those of the corners may
+    /// face away although their triangle does not; they are turned until they just face the camera, as
+    /// renderers do.
     fn normal(&self, hit: &Hit, window: &Window, to_camera: Vec3) -> Vec3 {
         let triangle = self.mesh.triangles[hit.triangle as usize].map(|corner| corner as usize);
         let [u, v] = hit.weights;
         // Weights of the picture count for less where a triangle is nearer to the camera.
         let mut smooth = Vec3::ZERO;
-        for (corner, weight) in triangle.into_iter().zip([1.0 - u - v, u, v]) {
-            let shrink = 1.0 - self.places[corner].z * window.inverse_distance;
-            smooth += self.mesh.normals[corner] * (weight / shrink);
+        let normals = self.mesh.normals.corners[hit.triangle as usize];
+        for (corner, weight) in [1.0 - u - v, u, v].into_iter().enumerate() {
+            let shrink = 1.0 - self.places[triangle[corner]].z * window.inverse_distance;
+            let normal = self.mesh.normals.normals[normals[corner] as usize];
+            smooth += normal * (weight / shrink);
         }
         let smooth = self.rotation * smooth;
         let [a, b, c] = triangle.map(|corner| self.places[corner]);
         let flat = (b - a).cross(c - a);
         // The mesh's own orientation tells which side of the smooth normal belongs to the camera.
-        let seen = if flat.dot(to_camera) < 0.0 {
-            -smooth
+        let side = if flat.dot(to_camera) < 0.0 { -1.0 } else { 1.0 };
+        let seen = (smooth * side).normalize_or(to_camera);
+        if is_faced((flat * side).normalize_or_zero(), to_camera) {
+            faced(seen, to_camera)
         } else {
-            smooth
-        };
-        seen.normalize_or(to_camera)
+            seen
+        }
     }
 }
 
-/// Calls `draw` with pixel, depth and weights of the second and third corner for every pixel whose
-/// centre lies in a triangle of (column, row, depth).
-fn fill(window: &Window, a: Vec3, b: Vec3, c: Vec3, mut draw: impl FnMut(usize, f32, [f32; 2])) {
+/// Calls `draw` with layer and weights of the second and third corner for every pixel whose centre lies in
+/// a triangle of (column, row, depth).
+fn fill(window: &Window, a: Vec3, b: Vec3, c: Vec3, mut draw: impl FnMut(Layer, [f32; 2])) {
     let low = a.min(b).min(c);
     let high = a.max(b).max(c);
     if high.x < 0.0 || high.y < 0.0 {
@@ -165,123 +180,16 @@ fn fill(window: &Window, a: Vec3, b: Vec3, c: Vec3, mut draw: impl FnMut(usize, 
             let u = (x * (c.y - a.y) - (c.x - a.x) * y) * inverse;
             let v = ((b.x - a.x) * y - x * (b.y - a.y)) * inverse;
             if u >= 0.0 && v >= 0.0 && u + v <= 1.0 {
-                let depth = a.z + (b.z - a.z) * u + (c.z - a.z) * v;
-                draw(row * window.width + column, depth, [u, v]);
+                let layer = Layer {
+                    pixel: (row * window.width + column) as u32,
+                    depth: a.z + (b.z - a.z) * u + (c.z - a.z) * v,
+                    facing: twice_area < 0.0,
+                };
+                draw(layer, [u, v]);
             }
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A torus around the z axis with analytic normals to compare with.
-    fn torus(rings: u32, sides: u32) -> TriangleMesh {
-        let mut positions = Vec::new();
-        let mut triangles = Vec::new();
-        for ring in 0..rings {
-            for side in 0..sides {
-                let u = std::f32::consts::TAU * ring as f32 / rings as f32;
-                let v = std::f32::consts::TAU * side as f32 / sides as f32;
-                let out = 0.7 + 0.3 * v.cos();
-                positions.push(Vec3::new(out * u.cos(), out * u.sin(), 0.3 * v.sin()));
-                let place = |r: u32, s: u32| (r % rings) * sides + s % sides;
-                let (a, b) = (place(ring, side), place(ring + 1, side));
-                let (c, d) = (place(ring + 1, side + 1), place(ring, side + 1));
-                triangles.extend([[a, b, c], [a, c, d]]);
-            }
-        }
-        TriangleMesh::new(positions, triangles).unwrap()
-    }
-
-    fn window(inverse_distance: f32) -> Window {
-        Window::square(0.0, 0.0, 2.2, 80, inverse_distance)
-    }
-
-    #[test]
-    fn torus_has_analytic_normals_and_depth() {
-        for inverse_distance in [0.0, 0.2] {
-            let mesh = Mesh::new(&torus(200, 100));
-            // Turned, so that the hole is seen aslant.
-            let turn = crate::random::about_x(0.5) * crate::random::about_y(0.3);
-            let window = window(inverse_distance);
-            let view = mesh.posed(turn).view(window);
-            let mut seen = 0;
-            for pixel in (0..80 * 80).filter(|&pixel| view.is_inside(pixel)) {
-                let local = turn.transpose() * window.ray(pixel).at(view.depth[pixel]);
-                let out = local.truncate().normalize() * 0.7;
-                let expected = turn * (local - out.extend(0.0)).normalize();
-                let distance = (local - out.extend(0.0)).length() - 0.3;
-                assert!(distance.abs() < 2e-3, "{distance}");
-                if view.normals[pixel].z > 0.1 {
-                    let degrees = view.normals[pixel].angle_between(expected).to_degrees();
-                    assert!(degrees < 1.5, "{degrees} degrees");
-                    seen += 1;
-                }
-            }
-            assert!(seen > 1500, "{seen} pixels");
-        }
-    }
-
-    #[test]
-    fn the_far_side_lies_behind_the_near_one() {
-        let mesh = Mesh::new(&torus(60, 30));
-        let view = mesh.posed(Mat3::IDENTITY).view(window(0.0));
-        for pixel in (0..80 * 80).filter(|&pixel| view.is_inside(pixel)) {
-            // Seen along its axis a torus is symmetric to the plane z = 0.
-            assert!((view.depth[pixel] + view.back[pixel]).abs() < 0.03);
-        }
-    }
-
-    #[test]
-    fn vertices_that_nothing_uses_change_nothing() {
-        let mesh = torus(20, 10);
-        let mut positions = mesh.positions().to_vec();
-        positions.push(Vec3::new(1e3, 0.0, 0.0));
-        let stray = TriangleMesh::new(positions, mesh.triangles().to_vec()).unwrap();
-        let [one, two] = [mesh, stray].map(|mesh| {
-            let mesh = Mesh::new(&mesh);
-            mesh.posed(Mat3::IDENTITY).view(window(0.0)).depth
-        });
-        assert_eq!(one, two);
-    }
-
-    /// Few large triangles, seen from nearby: a sphere whose smooth normals follow its flat faces' places
-    /// in space, not in the picture.
-    #[test]
-    fn normals_run_evenly_over_a_slanted_triangle() {
-        let corners = [
-            Vec3::new(-0.8, -0.4, -0.5),
-            Vec3::new(0.8, -0.4, 0.5),
-            Vec3::new(0.0, 0.6, 0.0),
-        ];
-        let mesh = TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
-        let mut mesh = Mesh::new(&mesh);
-        let normals = [
-            Vec3::new(-0.5, 0.0, 0.8),
-            Vec3::new(0.5, 0.0, 0.8),
-            Vec3::new(0.0, 0.5, 0.8),
-        ];
-        mesh.normals = normals.to_vec();
-        let posed = mesh.posed(Mat3::IDENTITY);
-        let [a, b, c] = [0, 1, 2].map(|corner| posed.places[corner]);
-        let window = window(0.35);
-        let view = posed.view(window);
-        let mut seen = 0;
-        for pixel in (0..80 * 80).filter(|&pixel| view.is_inside(pixel)) {
-            // Weights by areas in space.
-            let place = window.ray(pixel).at(view.depth[pixel]);
-            let whole = (b - a).cross(c - a).length();
-            let u = (place - a).cross(c - a).length() / whole;
-            let v = (b - a).cross(place - a).length() / whole;
-            let expected = normals[0] * (1.0 - u - v) + normals[1] * u + normals[2] * v;
-            let degrees = view.normals[pixel]
-                .angle_between(expected.normalize())
-                .to_degrees();
-            assert!(degrees < 0.3, "{degrees} degrees");
-            seen += 1;
-        }
-        assert!(seen > 300, "{seen}");
-    }
-}
+mod tests;

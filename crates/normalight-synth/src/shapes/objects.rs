@@ -1,5 +1,6 @@
 use super::figures::figure;
-use super::mesh::{Mesh, PosedMesh};
+use super::library::Library;
+use super::mesh::PosedMesh;
 use super::part::Part;
 use super::plate::Plate;
 use super::relief::Relief;
@@ -37,15 +38,15 @@ impl Object<'_> {
     pub(crate) fn view(&self, window: Window, detail: Detail) -> View {
         match self {
             Self::Solid(shape) => View::trace(shape, window, detail),
-            Self::Mesh(mesh) => mesh.view(window),
+            Self::Mesh(mesh) => mesh.view(window, detail),
         }
     }
 }
 
-/// Draws an object; `meshes` are those of the recipe's folder.
+/// Draws an object; `meshes` are those of the recipe's folders.
 pub(crate) fn object<'a>(
     recipe: &ShapeRecipe,
-    meshes: &'a [Mesh],
+    meshes: &'a Library,
     random: &mut Random,
 ) -> Object<'a> {
     let kind = random.weighted(&[
@@ -72,9 +73,13 @@ pub(crate) fn object<'a>(
         }
         2 => blob(recipe, random),
         3 => {
-            let vessel = vessel(random);
+            let open = random.chance(recipe.open_vessel_share);
+            let vessel = vessel(random, open);
             let yaw = random.signed(PI);
-            let turn = upright(recipe, random, yaw);
+            let turn = match open {
+                true => from_above(random, yaw),
+                false => upright(recipe, random, yaw),
+            };
             let relief = relief(recipe, random, turn).limited(vessel.max_relief);
             let seam = random.range(0.02, 0.1);
             let body = Body::Lathe(vessel.lathe);
@@ -90,7 +95,8 @@ pub(crate) fn object<'a>(
         }
         5 => plate(recipe, random),
         _ => {
-            let mesh = &meshes[random.below(meshes.len().max(1))];
+            let mesh = meshes.draw(random);
+            let mesh = mesh.expect("only a library with meshes has a weight");
             let yaw = yaw(random);
             let turn = upright(recipe, random, yaw);
             return Object::Mesh(mesh.posed(turn));
@@ -162,6 +168,12 @@ fn relief(recipe: &ShapeRecipe, random: &mut Random, turn: Mat3) -> Relief {
     }
     let strong = random.chance(recipe.strong_relief_share);
     Relief::draw(random, strong, turn)
+}
+
+/// As one looks into a bowl. `yaw` as of [`upright`].
+fn from_above(random: &mut Random, yaw: f32) -> Mat3 {
+    let (tilt, lean) = (random.range(25.0, 70.0), random.signed(5.0));
+    about_z(lean.to_radians()) * about_x(tilt.to_radians()) * about_y(yaw)
 }
 
 /// As people put things on a table: seen a little from above more often than from below, hardly

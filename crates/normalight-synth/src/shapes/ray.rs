@@ -59,7 +59,7 @@ pub(crate) fn follow(
         let safe = distance * safe_step;
         (above, above_distance) = (z, distance);
         z -= if fall > 0.0 && fall.is_finite() {
-            let furthest = (3.0 * safe).min(distance + shape.thinnest() / 2.0);
+            let furthest = (3.0 * safe).min(shape.furthest(distance));
             (distance / fall).clamp(safe, furthest.max(safe))
         } else {
             safe

@@ -2,6 +2,14 @@ use crate::noise::Lattice;
 use crate::random::Random;
 use glam::{Mat3, Vec3};
 
+/// Corners of a tetrahedron: differences at them give a gradient with four evaluations instead of six.
+pub(crate) const TETRAHEDRON: [Vec3; 4] = [
+    Vec3::new(1.0, 1.0, 1.0),
+    Vec3::new(1.0, -1.0, -1.0),
+    Vec3::new(-1.0, 1.0, -1.0),
+    Vec3::new(-1.0, -1.0, 1.0),
+];
+
 /// Bumps, folds or carving: how far the surface is pushed outwards at every point in space.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Relief {
@@ -16,6 +24,8 @@ struct Layer {
     to_noise: Mat3,
     offset: Vec3,
     height: f32,
+    /// Cells a unit.
+    frequency: f32,
     /// Sharp valleys instead of round bumps.
     ridged: bool,
 }
@@ -54,6 +64,23 @@ impl Relief {
         relief
     }
 
+    /// Grooves, cracks or grains with cells of `unit` times a few.
+    pub(crate) fn fine(random: &mut Random, unit: f32, rotation: Mat3) -> Self {
+        let mut relief = Self::default();
+        let stretch = if random.chance(0.3) {
+            Vec3::new(1.0, random.range(0.1, 0.4), 1.0)
+        } else {
+            Vec3::ONE
+        };
+        let turn = rotation * Mat3::from_diagonal(stretch) * rotation.transpose();
+        for _ in 0..random.count(1, 2) {
+            let frequency = 1.0 / (unit * random.log_range(3.0, 12.0));
+            let (slope, ridged) = (random.range(0.1, 0.6), random.chance(0.6));
+            relief.add(random, frequency, slope, ridged, turn);
+        }
+        relief
+    }
+
     /// Both reliefs on one surface.
     pub(crate) fn joined(mut self, other: Self) -> Self {
         self.layers.extend(other.layers);
@@ -84,6 +111,7 @@ impl Relief {
             to_noise: random.rotation() * turn * frequency,
             offset: random.vector(16.0),
             height,
+            frequency,
             ridged,
         });
         self.reach += height;
@@ -107,17 +135,39 @@ impl Relief {
     /// Displacement at a point, within -reach..reach.
     #[inline]
     pub(crate) fn at(&self, lattice: &Lattice, point: Vec3) -> f32 {
-        self.layers
-            .iter()
-            .map(|layer| {
-                let noise = lattice.at(layer.to_noise * point + layer.offset);
-                if layer.ridged {
-                    // A slightly rounded absolute value: creases, but no infinitely thin ones.
-                    layer.height * ((noise * noise + 0.003).sqrt() * 1.6 - 0.6).min(1.0)
-                } else {
-                    layer.height * noise
-                }
-            })
+        let layers = self.layers.iter();
+        layers.map(|layer| layer.at(lattice, point)).sum()
+    }
+
+    /// Change of the displacement with each axis, from differences over `spread`.
+    pub(crate) fn gradient(&self, lattice: &Lattice, point: Vec3, spread: f32) -> Vec3 {
+        let corners = TETRAHEDRON.iter();
+        let sum: Vec3 = corners
+            .map(|&corner| corner * self.at(lattice, point + corner * spread))
+            .sum();
+        sum / (4.0 * spread)
+    }
+
+    /// How many times as deep as wide the grooves are that a point lies in: 0 at the mean height and above,
+    /// a groove being half a cell wide.
+    pub(crate) fn groove(&self, lattice: &Lattice, point: Vec3) -> f32 {
+        let layers = self.layers.iter();
+        let depth = |layer: &Layer| (-layer.at(lattice, point)).max(0.0);
+        layers
+            .map(|layer| depth(layer) * 2.0 * layer.frequency)
             .sum()
+    }
+}
+
+impl Layer {
+    #[inline]
+    fn at(&self, lattice: &Lattice, point: Vec3) -> f32 {
+        let noise = lattice.at(self.to_noise * point + self.offset);
+        if self.ridged {
+            // A slightly rounded absolute value: creases, but no infinitely thin ones.
+            self.height * ((noise * noise + 0.003).sqrt() * 1.6 - 0.6).min(1.0)
+        } else {
+            self.height * noise
+        }
     }
 }

@@ -1,7 +1,7 @@
 use super::lathe::Lathe;
 use super::part::Part;
 use super::plate::Plate;
-use super::relief::Relief;
+use super::relief::{Relief, TETRAHEDRON};
 use crate::noise::Lattice;
 use glam::{Mat3, Vec2, Vec3};
 
@@ -48,7 +48,7 @@ impl Body {
     fn step(&self) -> f32 {
         match self {
             Self::None => 0.95,
-            Self::Lathe(_) => 0.8,
+            Self::Lathe(lathe) => lathe.step(),
             Self::Plate(plate) => plate.step(),
         }
     }
@@ -126,11 +126,13 @@ impl Shape {
         self.body.step() / (1.0 + self.relief.slope())
     }
 
-    /// Thickness of the thinnest large wall, which rays must not leap over.
-    pub(crate) fn thinnest(&self) -> f32 {
+    /// How far a ray may go at this distance on the guess that it falls evenly, without leaping over the
+    /// thinnest large wall.
+    pub(crate) fn furthest(&self, distance: f32) -> f32 {
         match &self.body {
-            Body::Plate(plate) => plate.thickness(),
-            _ => f32::INFINITY,
+            Body::Plate(plate) => distance + plate.thickness() / 2.0,
+            Body::Lathe(lathe) => lathe.furthest(distance),
+            Body::None => f32::INFINITY,
         }
     }
 
@@ -186,16 +188,9 @@ impl Shape {
         active: Active,
         spread: f32,
     ) -> Vec3 {
-        // Four corners of a tetrahedron give the gradient with four evaluations instead of six;
-        // its error grows with the spread times the curvature.
-        const CORNERS: [Vec3; 4] = [
-            Vec3::new(1.0, 1.0, 1.0),
-            Vec3::new(1.0, -1.0, -1.0),
-            Vec3::new(-1.0, 1.0, -1.0),
-            Vec3::new(-1.0, -1.0, 1.0),
-        ];
+        // The error of the differences grows with the spread times the curvature.
         let mut gradient = Vec3::ZERO;
-        for corner in CORNERS {
+        for corner in TETRAHEDRON {
             gradient += corner * self.distance(lattice, point + corner * spread, active);
         }
         gradient.normalize_or(Vec3::Z)

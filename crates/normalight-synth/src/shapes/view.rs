@@ -102,11 +102,12 @@ pub(crate) struct View {
     ///
     /// `[height, width]`
     pub(crate) depth: Vec<f32>,
-    /// z of the object's far side, never above `depth`; meaningless where nothing is.
+    /// z of the object's far side, never above `depth`, the same for an open sheet; meaningless where
+    /// nothing is or when only the depth was asked for.
     ///
     /// `[height, width]`
     pub(crate) back: Vec<f32>,
-    /// Unit normals, zero where nothing is or when only the depth was asked for.
+    /// Unit normals, zero where nothing is, meaningless when only the depth was asked for.
     ///
     /// `[height, width]`
     pub(crate) normals: Vec<Vec3>,
@@ -210,6 +211,16 @@ impl View {
         self.leave_edges();
     }
 
+    /// From the depth alone.
+    pub(crate) fn of_depth(window: Window, depth: Vec<f32>) -> Self {
+        Self {
+            window,
+            back: Vec::new(),
+            normals: Vec::new(),
+            depth,
+        }
+    }
+
     /// From depth, far side and normals of the surface as it is.
     pub(crate) fn from_planes(
         window: Window,
@@ -237,11 +248,11 @@ impl View {
                 continue;
             }
             let (normal, to_camera) = (self.normals[pixel], self.window.ray(pixel).to_camera());
-            if normal.z.min(normal.dot(to_camera)) >= MIN_NORMAL_Z {
+            if is_faced(normal, to_camera) {
                 continue;
             }
             if self.is_surrounded(pixel / width, pixel % width) {
-                self.normals[pixel] = edge_on_normal(normal, to_camera);
+                self.normals[pixel] = faced(normal, to_camera);
             } else {
                 leaving.push(pixel);
             }
@@ -305,10 +316,20 @@ fn back_of(shape: &Shape, lattice: &Lattice, ray: Ray, front: f32, pitch: f32) -
     z
 }
 
-/// The nearest normal that the camera just sees.
-fn edge_on_normal(normal: Vec3, to_camera: Vec3) -> Vec3 {
-    let mut seen = normal + to_camera * (MIN_NORMAL_Z - normal.dot(to_camera)).max(0.0);
-    seen.z = seen.z.max(MIN_NORMAL_Z);
+/// Whether the camera sees a surface of this unit normal other than edge-on.
+pub(crate) fn is_faced(normal: Vec3, to_camera: Vec3) -> bool {
+    normal.z.min(normal.dot(to_camera)) >= MIN_NORMAL_Z
+}
+
+/// The unit normal itself if the camera sees such a surface, else one near by that it just sees.
+pub(crate) fn faced(normal: Vec3, to_camera: Vec3) -> Vec3 {
+    if is_faced(normal, to_camera) {
+        return normal;
+    }
+    // Twice as much, of which making it a unit vector takes a little.
+    let least = 2.0 * MIN_NORMAL_Z;
+    let mut seen = normal + to_camera * (least - normal.dot(to_camera)).max(0.0);
+    seen.z = seen.z.max(least);
     seen.normalize()
 }
 

@@ -3,7 +3,10 @@ use crate::materials::Surfaces;
 use crate::materials::surface_for_tests as matte;
 use crate::shapes::Window;
 
-/// One bounce from every point to every other one that it sees, pixel by pixel.
+/// Bounces followed by the brute force; what is left after them is a thousandth.
+const BOUNCES: usize = 30;
+
+/// All bounces from every point to every other one that it sees, pixel by pixel.
 fn brute_force(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) -> Vec<f32> {
     let window = view.window;
     let visible = |a: Vec3, b: Vec3| {
@@ -16,24 +19,33 @@ fn brute_force(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) ->
             view.depth[row * window.width + column] < place.z + 1.5 * window.pitch
         })
     };
-    (0..points.count())
-        .map(|to| {
-            let (place, normal) = (points.places[to], points.normals[to]);
-            let mut sum = 0.0f64;
-            for (from, arriving) in irradiance.iter().enumerate().take(points.count()) {
-                let between = points.places[from] - place;
-                let (out, back) = (between.dot(normal), -between.dot(points.normals[from]));
-                if out <= 0.0 || back <= 0.0 || !visible(place, points.places[from]) {
-                    continue;
-                }
-                let area = window.pitch * window.pitch / points.normals[from].z;
-                let square = between.length_squared();
-                let exchange = out * back * area / (square * (PI * square + area));
-                sum += f64::from(exchange * albedo * arriving);
+    let count = points.count();
+    let mut exchange = vec![0.0f32; count * count];
+    for to in 0..count {
+        let (place, normal) = (points.places[to], points.normals[to]);
+        for from in 0..count {
+            let between = points.places[from] - place;
+            let (out, back) = (between.dot(normal), -between.dot(points.normals[from]));
+            if out <= 0.0 || back <= 0.0 || !visible(place, points.places[from]) {
+                continue;
             }
-            albedo * sum as f32
-        })
-        .collect()
+            let area = window.pitch * window.pitch / points.normals[from].z;
+            let square = between.length_squared();
+            exchange[to * count + from] = out * back * area / (square * (PI * square + area));
+        }
+    }
+    // What all points scatter of the lamp's light, then of that, and so on.
+    let mut leaving: Vec<f32> = irradiance[..count].iter().map(|i| albedo * i).collect();
+    let mut all = vec![0.0; count];
+    for _ in 0..BOUNCES {
+        let rows = exchange.chunks_exact(count);
+        let arriving = rows.map(|row| row.iter().zip(&leaving).map(|(e, l)| e * l).sum::<f32>());
+        leaving = arriving.map(|arriving| albedo * arriving).collect();
+        for (sum, leaving) in all.iter_mut().zip(&leaving) {
+            *sum += leaving;
+        }
+    }
+    all
 }
 
 fn bounced(view: &View, points: &Points, albedo: f32, irradiance: &[f32]) -> Vec<f32> {
@@ -66,7 +78,8 @@ fn bowl(side: usize, least: f32) -> View {
 }
 
 /// Inside a sphere every point sees every other one equally well: the form factor of a piece is its
-/// share of the sphere's surface, so evenly lit pieces send `albedo * irradiance * area / (4 pi)`.
+/// share `f` of the sphere's surface. Evenly lit pieces send `albedo * f` of their light with the first
+/// bounce, as much of that with the second, and `albedo * f / (1 - albedo * f)` with all.
 #[test]
 fn a_bowl_gets_what_its_share_of_the_sphere_sends() {
     let least = 0.3;
@@ -75,7 +88,8 @@ fn a_bowl_gets_what_its_share_of_the_sphere_sends() {
     let albedo = 0.8;
     let light = bounced(&view, &points, albedo, &vec![1.0; points.count()]);
     let area = 2.0 * PI * (1.0 - least);
-    let expected = albedo * albedo * area / (4.0 * PI);
+    let again = albedo * area / (4.0 * PI);
+    let expected = albedo * again / (1.0 - again);
     let mean = light.iter().sum::<f32>() / light.len() as f32;
     // Near neighbours are taken for less than they give, to stay finite.
     println!("{:.1} % of the closed form", 100.0 * mean / expected);

@@ -1,7 +1,7 @@
 use super::*;
 use crate::random::{Random, Stream};
 use crate::recipe::ShapeRecipe;
-use crate::shapes::{Detail, Object, Window, object};
+use crate::shapes::{Detail, Library, Object, Window, object};
 
 fn view(window: Window, depth: impl Fn(f32, f32) -> f32, back: f32) -> View {
     let area = window.width * window.height;
@@ -60,12 +60,12 @@ fn light_passes_under_what_floats() {
 /// The shadows of drawn solids against rays followed through their signed distance.
 #[test]
 fn shadows_are_those_of_ray_casting() {
-    let recipe = ShapeRecipe::default();
+    let (recipe, library) = (ShapeRecipe::default(), Library::default());
     for inverse_distance in [0.0, 0.15] {
         let (mut points, mut wrong) = (0, 0);
         for seed in 0..16 {
             let mut random = Random::new(seed, Stream::Shape);
-            let object = object(&recipe, &[], &mut random);
+            let object = object(&recipe, &library, &mut random);
             let Object::Solid(shape) = &object else {
                 unreachable!("no meshes were given");
             };

@@ -204,3 +204,28 @@ fn lamp_and_camera_may_change_places() {
         "{there} {back}"
     );
 }
+
+/// In a furnace as bright everywhere as itself, white rough metal that loses nothing is invisible: what
+/// single facets lose comes back from between them.
+#[test]
+fn rough_metal_returns_all_light() {
+    for alpha in [0.2f32, 0.5, 0.9] {
+        let whole = Surface {
+            albedo: crate::materials::paint::between_facets(Vec3::ONE, alpha),
+            ..mirror([alpha; 2])
+        };
+        // Over all directions of the camera, by their cosine.
+        let mean = |surface: Surface| {
+            let count = 5;
+            let camera = (0..count).map(|k| {
+                let square = (k as f32 + 0.5) / count as f32;
+                let to_camera = Vec3::new((1.0 - square).sqrt(), 0.0, square.sqrt());
+                directional_albedo(surface, to_camera)
+            });
+            camera.sum::<f64>() / f64::from(count)
+        };
+        let returned = mean(whole);
+        println!("alpha {alpha}: {returned:.3}");
+        assert!((returned - 1.0).abs() < 0.02, "alpha {alpha}: {returned}");
+    }
+}
