@@ -3,10 +3,11 @@ import { type Progress, STAGES, type Stage } from "./types.js";
 /** Shares of the time that the stages of a full run take, roughly; they sum to 1. */
 const SHARES: Record<Stage, number> = {
   reading: 0.06,
-  lights: 0.2,
-  normals: 0.34,
-  refit: 0.05,
-  "final normals": 0.33,
+  lights: 0.18,
+  normals: 0.3,
+  refit: 0.03,
+  "final lights": 0.12,
+  "final normals": 0.29,
   albedo: 0.02,
 };
 

@@ -50,7 +50,7 @@ export interface EstimateOptions {
   readonly images?: number;
   /** Which way green points in `normals.png` and the preview; `opengl` (up) when left out. */
   readonly normalFormat?: "opengl" | "directx";
-  /** Refit the lights to the normals, and the normals to them; on when left out. */
+  /** Make the lights better with the first normals, and the normals with them; on when left out. */
   readonly refit?: boolean;
   /** Cancels: the promise then rejects with the signal's reason. */
   readonly signal?: AbortSignal;
@@ -68,8 +68,19 @@ export interface Progress {
   readonly fraction: number;
 }
 
-/** The stages of a run in their order; with given lights or without a refit some are left out. */
-export const STAGES = ["reading", "lights", "normals", "refit", "final normals", "albedo"] as const;
+/**
+ * The stages of a run in their order; with given lights or without a refit some are left out. Lights are refitted or
+ * looked at again, as the light network can.
+ */
+export const STAGES = [
+  "reading",
+  "lights",
+  "normals",
+  "refit",
+  "final lights",
+  "final normals",
+  "albedo",
+] as const;
 
 /** A stage of a run. */
 export type Stage = (typeof STAGES)[number];

@@ -100,7 +100,8 @@ pub(crate) struct EstimationArgs {
     /// How the light network's classes become numbers.
     #[arg(long, value_enum, default_value = "soft-argmax")]
     pub(crate) decoding: DecodingChoice,
-    /// Keep the light network's answer as it is instead of refitting the lights to the normals.
+    /// Keep the light network's first answer: no second look with the normals in view by a light network made
+    /// for it, no refit of the lights to the normals with another.
     #[arg(long)]
     pub(crate) no_refit: bool,
     /// Another light network than the one inside this program.

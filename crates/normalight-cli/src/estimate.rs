@@ -12,7 +12,7 @@ use normalight_io::{
     ColorMode, IoError, MaskChoice, OutputFolder, ReadOptions, Report, StackInput, StageSeconds,
     read_named, read_paths,
 };
-use normalight_model::ModelError;
+use normalight_model::{ModelError, SecondPass};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -42,6 +42,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         estimated => estimated?,
     };
 
+    let pass = estimation.second_pass(lights.is_some());
     let before = [("start", opened), ("reading", read)];
     let before = before.map(|(stage, time)| StageSeconds {
         stage: stage.to_owned(),
@@ -54,10 +55,10 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         height: input.stack.height(),
         mask: input.mask_words().to_owned(),
         color: ColorMode::from(args.color).to_string(),
-        lights_from: lights_in_words(args),
+        lights_from: lights_in_words(args, pass),
         device: estimation.device.clone(),
         weights: estimation.hashes(lights.is_some()),
-        settings: settings(args),
+        settings: settings(args, pass),
         seconds: before.into_iter().chain(stages).collect(),
     };
     let files = outputs::encode(&input, &estimate, args.normal_format.into(), &report)?;
@@ -130,17 +131,16 @@ fn read_lights(args: &EstimateArgs, input: &StackInput) -> Result<Option<Vec<Lig
         .transpose()?)
 }
 
-fn lights_in_words(args: &EstimateArgs) -> String {
+fn lights_in_words(args: &EstimateArgs, pass: Option<SecondPass>) -> String {
     match &args.lights {
         Some(path) => path.display().to_string(),
-        None if args.estimation.no_refit => "estimated by the light network".to_owned(),
-        None => "estimated by the light network, refitted to the normals".to_owned(),
+        None => SecondPass::words(pass).to_owned(),
     }
 }
 
-fn settings(args: &EstimateArgs) -> serde_json::Value {
+fn settings(args: &EstimateArgs, pass: Option<SecondPass>) -> serde_json::Value {
     let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
-    let mut settings = in_words(&args.estimation, args.lights.is_some());
+    let mut settings = in_words(&args.estimation, pass);
     settings.extend([
         ("mask".to_owned(), path(&args.mask).into()),
         ("lights".to_owned(), path(&args.lights).into()),

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
         device: estimation.device.clone(),
         weights: estimation.hashes(args.calibrated),
         parameters: estimation.estimator.parameters(),
-        settings: in_words(&args.estimation, args.calibrated),
+        settings: in_words(&args.estimation, estimation.second_pass(args.calibrated)),
         tables: Vec::new(),
     };
     print(&heading(&evaluation))?;

@@ -3,10 +3,9 @@ use crate::args::EstimationArgs;
 use crate::choices::word;
 use crate::device::{self, OpenDevice};
 use anyhow::Result;
-use normalight_core::RefitSettings;
 use normalight_io::WeightHashes;
 use normalight_io::read_named;
-use normalight_model::{EstimateSettings, Estimator, Weights, default_weights};
+use normalight_model::{EstimateSettings, Estimator, SecondPass, Weights, default_weights};
 use std::path::Path;
 
 /// Both networks on a device, and how to use them.
@@ -27,10 +26,16 @@ impl Estimation {
             estimator: Estimator::new(&light, &normal, device)?,
             settings: EstimateSettings {
                 decoding: args.decoding.into(),
-                refit: (!args.no_refit).then(RefitSettings::default),
+                second_pass: !args.no_refit,
+                ..EstimateSettings::default()
             },
             device: name,
         })
+    }
+
+    /// What follows the first normals.
+    pub(crate) fn second_pass(&self, lights_given: bool) -> Option<SecondPass> {
+        self.estimator.second_pass(&self.settings, lights_given)
     }
 
     /// Hashes of the weights that are used.
@@ -43,17 +48,16 @@ impl Estimation {
     }
 }
 
-/// The settings as the command line names them, for reports. Lights that were given are never
-/// refitted.
+/// The settings as the command line names them, for reports, and what was done about the lights.
 pub(crate) fn in_words(
     args: &EstimationArgs,
-    lights_given: bool,
+    second_pass: Option<SecondPass>,
 ) -> serde_json::Map<String, serde_json::Value> {
-    let refit = !args.no_refit && !lights_given;
+    let second_pass = SecondPass::name(second_pass);
     [
         ("device".to_owned(), word(args.device).into()),
         ("decoding".to_owned(), word(args.decoding).into()),
-        ("refit".to_owned(), refit.into()),
+        ("second_pass".to_owned(), second_pass.into()),
     ]
     .into_iter()
     .collect()

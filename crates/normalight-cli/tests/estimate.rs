@@ -75,7 +75,7 @@ fn the_report_tells_how_it_came_to_be() {
     }
     let settings = &report["settings"];
     assert_eq!(settings["images"], 4);
-    assert_eq!(settings["refit"], true);
+    assert_eq!(settings["second_pass"], "refit");
     assert_eq!(settings["decoding"], "soft-argmax");
     assert_eq!(settings["normal_format"], "opengl");
     let stages = report["seconds"].as_array().unwrap();

@@ -1,4 +1,4 @@
-use crate::{LightGenotype, ModelError, NormalGenotype};
+use crate::{Guidance, LightGenotype, ModelError, NormalGenotype};
 use normalight_core::LightBins;
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +18,10 @@ pub enum Architecture {
 pub struct LightArchitecture {
     /// Side of the square view of the object, in pixels.
     pub input_size: usize,
+    /// Whether it can look once more when there are normals and lights: four more input channels, see
+    /// [`Guidance`], which are zero at the first look.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub guided: bool,
     /// The classes it speaks in.
     pub bins: LightBins,
     /// Its layers.
@@ -144,12 +148,18 @@ impl LightArchitecture {
     pub fn plain() -> Self {
         Self {
             input_size: 64,
+            guided: false,
             bins: LightBins::relative(),
             body: LightBody::Plain(PlainLight {
                 widths: [16, 32, 64],
                 hidden: 128,
             }),
         }
+    }
+
+    /// Number of input channels: image and mask, perhaps the guidance.
+    pub fn input_channels(&self) -> usize {
+        4 + if self.guided { Guidance::CHANNELS } else { 0 }
     }
 
     /// Checks ranges and cells.

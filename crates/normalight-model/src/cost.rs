@@ -29,12 +29,13 @@ impl NetworkCost {
 pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
     let bins = &architecture.bins;
     let classes = bins.azimuth + bins.elevation + bins.intensity.count;
+    let inputs = architecture.input_channels();
     let area = architecture.input_size * architecture.input_size;
     let cost = match &architecture.body {
         LightBody::Plain(plain) => {
             let [a, b, c] = plain.widths;
             let side = architecture.input_size / 32;
-            conv(4, a, area / 4)
+            conv(inputs, a, area / 4)
                 + conv(a, b, area / 16)
                 + conv(b, b, area / 16)
                 + conv(b, c, area / 64)
@@ -56,7 +57,7 @@ pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
             let stride: usize = cells.stem_strides.iter().product();
             let side = (architecture.input_size / stride).div_ceil(4 << cells.reductions);
             let fused = stem >> (2 * cells.reductions);
-            conv(4, 2 * c, area / first)
+            conv(inputs, 2 * c, area / first)
                 + conv(2 * c, 3 * c, stem)
                 + cell_row(&features, &genotype.cells())
                 + conv(2 * channels, 4 * c, fused)

@@ -1,7 +1,7 @@
 use crate::observer::{Observer, Progress, Stage};
 use crate::{
-    LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Weights,
-    estimate_lights, estimate_normals, light_cost, normal_cost,
+    Known, LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork,
+    SecondPass, Weights, estimate_lights, estimate_normals, light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
@@ -25,16 +25,19 @@ pub struct Estimator {
 pub struct EstimateSettings {
     /// How light classes become numbers.
     pub decoding: Decoding,
-    /// Refit the lights to the first normals and estimate the normals again; lights that were
-    /// given are never touched.
-    pub refit: Option<RefitSettings>,
+    /// Make the lights better with the first normals and estimate the normals again; lights that were
+    /// given are never touched. See [`Estimator::second_pass`].
+    pub second_pass: bool,
+    /// How lights are refitted where they are.
+    pub refit: RefitSettings,
 }
 
 impl Default for EstimateSettings {
     fn default() -> Self {
         Self {
             decoding: Decoding::SoftArgmax,
-            refit: Some(RefitSettings::default()),
+            second_pass: true,
+            refit: RefitSettings::default(),
         }
     }
 }
@@ -81,6 +84,21 @@ impl Estimator {
         [&self.hashes[0], &self.hashes[1]]
     }
 
+    /// What follows the first normals: a guided light network looks again, the lights of another one are
+    /// refitted; nothing where the settings say so or lights were given.
+    pub fn second_pass(
+        &self,
+        settings: &EstimateSettings,
+        lights_given: bool,
+    ) -> Option<SecondPass> {
+        let better = if self.light_architecture.guided {
+            SecondPass::Guided
+        } else {
+            SecondPass::Refit
+        };
+        (settings.second_pass && !lights_given).then_some(better)
+    }
+
     /// From photographs to lights and normals; `given` lights replace the light network.
     ///
     /// # Errors
@@ -97,25 +115,26 @@ impl Estimator {
         stack.check_mask(mask, "mask")?;
         let mut lights = match given {
             Some(lights) => lights.to_vec(),
-            None => {
-                estimate_lights(
-                    &self.light_architecture,
-                    &self.light,
-                    stack,
-                    mask,
-                    settings.decoding,
-                    &self.device,
-                    observer,
-                )
-                .await?
-            }
+            None => self.lights(stack, mask, None, settings, observer).await?,
         };
         let mut normals = self
             .normals(stack, mask, &lights, Stage::Normals, observer)
             .await?;
-        if let (Some(refit), None) = (settings.refit, given) {
-            report(observer, Stage::Refit).await?;
-            lights = refit_lights(stack, mask, &normals, &lights, refit)?;
+        if let Some(pass) = self.second_pass(&settings, given.is_some()) {
+            lights = match pass {
+                SecondPass::Guided => {
+                    let known = Known {
+                        normals: &normals,
+                        lights: &lights,
+                    };
+                    self.lights(stack, mask, Some(known), settings, observer)
+                        .await?
+                }
+                SecondPass::Refit => {
+                    report(observer, Stage::Refit).await?;
+                    refit_lights(stack, mask, &normals, &lights, settings.refit)?
+                }
+            };
             normals = self
                 .normals(stack, mask, &lights, Stage::FinalNormals, observer)
                 .await?;
@@ -127,6 +146,27 @@ impl Estimator {
             normals,
             albedo,
         })
+    }
+
+    async fn lights(
+        &self,
+        stack: &ImageStack,
+        mask: &Mask,
+        known: Option<Known<'_>>,
+        settings: EstimateSettings,
+        observer: &mut impl Observer,
+    ) -> Result<Vec<Light>, ModelError> {
+        estimate_lights(
+            &self.light_architecture,
+            &self.light,
+            stack,
+            mask,
+            known,
+            settings.decoding,
+            &self.device,
+            observer,
+        )
+        .await
     }
 
     async fn normals(

@@ -1,17 +1,14 @@
 use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
 use crate::layers::{Form, convolution, convolve_row, leaky};
 use crate::{
-    CellLight, LightArchitecture, LightBody, LightGenotype, ModelError, PlainLight, Relaxation,
-    SearchSpace,
+    CellLight, Guidance, LightArchitecture, LightBody, LightGenotype, ModelError, PlainLight,
+    Relaxation, SearchSpace,
 };
-use burn::module::Module;
+use burn::module::{Module, Param};
 use burn::nn::conv::Conv2d;
 use burn::nn::{Linear, LinearConfig};
 use burn::tensor::{Device, Tensor};
 use normalight_kernels::channels_first;
-
-/// Image and mask.
-const INPUT_CHANNELS: usize = 4;
 
 /// The light calibration network: per-image features, their maximum over all images, and a
 /// classifier that sees both.
@@ -74,11 +71,11 @@ impl LightNetwork {
     ) -> Result<Self, ModelError> {
         architecture.validate()?;
         let layers = match &architecture.body {
-            LightBody::Plain(plain) => plain_layers(plain, architecture.input_size, device),
+            LightBody::Plain(plain) => plain_layers(plain, architecture, device),
             LightBody::Cells(cells) => {
                 let plans = cells.genotype.cells().map(CellPlan::Chosen);
                 let form = if folded { Form::Folded } else { Form::Affine };
-                cell_layers(cells, plans, architecture.input_size, form, device)
+                cell_layers(cells, plans, architecture, form, device)
             }
         };
         Ok(Self::with_heads(architecture, layers, None, device))
@@ -100,8 +97,7 @@ impl LightNetwork {
         };
         space.validate_for(cells.width)?;
         let plans = [0, 1, 2, 3].map(|cell| CellPlan::Relaxed(space, cell));
-        let side = architecture.input_size;
-        let layers = cell_layers(cells, plans, side, Form::Relaxed, device);
+        let layers = cell_layers(cells, plans, architecture, Form::Relaxed, device);
         let count = LightGenotype::CELLS.len();
         let relaxation = Relaxation::new(space, count, device);
         Ok(Self::with_heads(
@@ -148,7 +144,8 @@ impl LightNetwork {
     /// Features of every image by itself.
     ///
     /// # Shapes
-    /// - input: `[images, size, size, 4]`: RGB divided by the stack's mean, and the mask
+    /// - input: `[images, size, size, 4]`: RGB divided by the stack's mean, and the mask; of a guided network
+    ///   `[images, size, size, 8]`: also what is known, see [`Guidance`], or zeros
     /// - output: `[images, height, width, channels]`
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
@@ -178,6 +175,25 @@ impl LightNetwork {
         self.output.forward(hidden)
     }
 
+    /// The same function as a guided network: of the guidance it sees nothing yet, its weights are zero.
+    ///
+    /// For networks that are not guided.
+    pub fn guided(&self) -> Self {
+        let mut network = self.clone();
+        let first = match &mut network.features {
+            Features::Plain(plain) => &mut plain.convolutions[0],
+            Features::Cells(cells) => &mut cells.stem[0],
+        };
+        // [channels out, channels in, 3, 3]
+        let weight = first.weight.val();
+        let [out, _, height, width] = weight.dims();
+        let shape = [out, Guidance::CHANNELS, height, width];
+        let zeros = Tensor::zeros(shape, &weight.device());
+        let wider = Tensor::cat(vec![weight, zeros], 1);
+        first.weight = Param::initialized(first.weight.id, wider);
+        network
+    }
+
     /// The same function with every normalisation layer folded into its convolution.
     pub fn folded(&self) -> Self {
         let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
@@ -194,12 +210,12 @@ impl LightNetwork {
 
 fn plain_layers(
     plain: &PlainLight,
-    input_size: usize,
+    architecture: &LightArchitecture,
     device: &Device,
 ) -> (Features, Classifier, usize, usize) {
     let [a, b, c] = plain.widths;
     let features = [
-        ([INPUT_CHANNELS, a], 2),
+        ([architecture.input_channels(), a], 2),
         ([a, b], 2),
         ([b, b], 1),
         ([b, c], 2),
@@ -212,7 +228,7 @@ fn plain_layers(
             .map(|&(channels, stride)| convolution(channels, 3, stride, device))
             .collect(),
     };
-    let side = input_size / 32;
+    let side = architecture.input_size / 32;
     (
         Features::Plain(build(&features)),
         Classifier::Plain(build(&classifier)),
@@ -224,7 +240,7 @@ fn plain_layers(
 fn cell_layers(
     cells: &CellLight,
     [normal, reduction, classifier_normal, classifier_reduction]: [CellPlan; 4],
-    input_size: usize,
+    architecture: &LightArchitecture,
     form: Form,
     device: &Device,
 ) -> (Features, Classifier, usize, usize) {
@@ -232,7 +248,7 @@ fn cell_layers(
     let stem_channels = 3 * width;
     let stem = vec![
         convolution(
-            [INPUT_CHANNELS, 2 * width],
+            [architecture.input_channels(), 2 * width],
             3,
             cells.stem_strides[0],
             device,
@@ -256,7 +272,7 @@ fn cell_layers(
     ];
     // Besides the reductions in the features one in the classifier and one stride after it.
     let stem_stride: usize = cells.stem_strides.iter().product();
-    let side = (input_size / stem_stride).div_ceil(4 << cells.reductions);
+    let side = (architecture.input_size / stem_stride).div_ceil(4 << cells.reductions);
     (
         Features::Cells(CellFeatures {
             stem,

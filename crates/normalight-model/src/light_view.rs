@@ -1,4 +1,5 @@
-use normalight_core::{ImageStack, Mask, Rect};
+use crate::{Guidance, Known};
+use normalight_core::{ImageStack, Mask, NormalMap, Rect, Vec3};
 
 /// Margin around the object in its square view, as a share of the view's side.
 const MARGIN: f32 = 0.04;
@@ -102,6 +103,36 @@ impl LightView {
         for (out, &coverage) in mask.iter_mut().zip(&self.coverage) {
             *out = f32::from(u8::from(coverage >= 0.5));
         }
+    }
+
+    /// What is known, as this view shows it.
+    ///
+    /// The normals must be of the stack's size.
+    pub fn guidance(&self, known: Known<'_>) -> Guidance {
+        Guidance::new(self.normals(known.normals), known.lights)
+    }
+
+    /// The mean normal of every view pixel, zero outside the object: `[size, size]`.
+    fn normals(&self, map: &NormalMap) -> Vec<Vec3> {
+        let planes = [0, 1, 2].map(|axis| {
+            let pixels = self.inside.iter().enumerate().map(|(index, inside)| {
+                let (x, y) = (index % self.rect.width, index / self.rect.width);
+                let pixel = (self.rect.y + y) * map.width() + self.rect.x + x;
+                map.normals()[pixel][axis] * inside
+            });
+            self.averaged(&pixels.collect::<Vec<_>>())
+        });
+        let covered = self.coverage.iter().enumerate();
+        covered
+            .map(|(pixel, &coverage)| {
+                let sum = Vec3::from(planes.each_ref().map(|plane| plane[pixel]));
+                if coverage >= 0.5 {
+                    sum.normalize_or_zero()
+                } else {
+                    Vec3::ZERO
+                }
+            })
+            .collect()
     }
 
     /// Mean over object pixels, channels and images.

@@ -9,7 +9,9 @@ pub enum Stage {
     Normals,
     /// Lights are refitted to the normals.
     Refit,
-    /// The normal network runs again with the refitted lights.
+    /// A guided light network looks again, with normals and lights in view.
+    FinalLights,
+    /// The normal network runs again with the better lights.
     FinalNormals,
     /// Albedo from normals and lights.
     Albedo,
@@ -22,6 +24,7 @@ impl Stage {
             Stage::Lights => "lights",
             Stage::Normals => "normals",
             Stage::Refit => "refit",
+            Stage::FinalLights => "final lights",
             Stage::FinalNormals => "final normals",
             Stage::Albedo => "albedo",
         }

@@ -15,6 +15,7 @@ mod curves;
 mod data_parallel;
 mod error;
 mod evaluate;
+mod guidance;
 mod init;
 mod learner;
 mod light_task;
@@ -40,8 +41,8 @@ mod training_loop;
 pub use error::TrainError;
 pub use evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
 pub use recipe::{
-    CacheRecipe, Decay, LightMix, LightSettings, Network, NormalSettings, OptimiserRecipe,
-    PublishedChoice, PublishedRecipe, Schedule, TrainRecipe,
+    CacheRecipe, Decay, GuidanceMix, LightMix, LightSettings, Network, NormalSettings,
+    OptimiserRecipe, PublishedChoice, PublishedRecipe, Schedule, TrainRecipe,
 };
 pub use run::{Devices, TrainRun, train};
 pub use search::{

@@ -1,12 +1,19 @@
 use crate::batch::Batch;
+use crate::guidance::{GuidedBy, distorted};
 use crate::init::{check_start, init_error};
 use crate::named_tensors::{collect, fill};
+use crate::predicted::{Predicted, normal_weights};
 use crate::task::{Task, Validation};
 use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
-use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
+use normalight_core::{
+    Decoding, ImageStack, Light, LightBins, Mask, intensity_error, mean_light_error,
+};
 use normalight_kernels::max_over_images;
-use normalight_model::{LightBody, LightNetwork, Quiet, Weights, estimate_lights};
+use normalight_model::{
+    Guidance, Known, LightArchitecture, LightBody, LightNetwork, Quiet, Stage, Weights,
+    estimate_lights, estimate_normals,
+};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
@@ -35,8 +42,11 @@ impl Task for LightTask {
         weights: &Weights,
         device: &Device,
     ) -> Result<LightNetwork, TrainError> {
-        let (found, stored) = weights.light_network(device)?;
+        let (mut found, mut stored) = weights.light_network(device)?;
         let plain = matches!(found.body, LightBody::Plain(_));
+        if recipe.light.architecture.guided && !found.guided {
+            (found.guided, stored) = (true, stored.guided());
+        }
         check_start(weights, plain, found == recipe.light.architecture)?;
         let filled = fill(network, &mut collect(&stored));
         filled.map_err(|reason| init_error(weights, reason))
@@ -45,20 +55,26 @@ impl Task for LightTask {
     fn append(
         recipe: &TrainRecipe,
         sample: &Sample,
-        _predicted: Option<&[Light]>,
-        _seed: u64,
+        predicted: Option<&Predicted>,
+        seed: u64,
         batch: &mut Batch,
     ) {
         let area = sample.size * sample.size;
         let inside = sample.mask.iter().filter(|&&inside| inside).count();
         let sum: f32 = sample.images.iter().sum();
         let mean = sum / (3 * inside.max(1) * sample.lights.len()) as f32;
-        for image in sample.images.chunks_exact(3 * area) {
+        let guided = recipe.light.architecture.guided;
+        let guidance = guidance(recipe, sample, predicted, seed);
+        for (index, image) in sample.images.chunks_exact(3 * area).enumerate() {
             let factor = 1.0 / mean.max(1e-12);
             for (pixel, &inside) in sample.mask.iter().enumerate() {
                 let colour = [0, 1, 2].map(|channel| image[channel * area + pixel] * factor);
                 batch.input.extend(colour);
                 batch.input.push(f32::from(u8::from(inside)));
+                if guided {
+                    let known = guidance.as_ref().map(|one| one.channels(index, pixel));
+                    batch.input.extend(known.unwrap_or_default());
+                }
             }
         }
         let bins = &recipe.light.architecture.bins;
@@ -76,8 +92,8 @@ impl Task for LightTask {
         }
     }
 
-    fn channels(_recipe: &TrainRecipe) -> usize {
-        4
+    fn channels(recipe: &TrainRecipe) -> usize {
+        recipe.light.architecture.input_channels()
     }
 
     fn loss(
@@ -145,25 +161,45 @@ impl Task for LightTask {
         objects: &[Sample],
         device: &Device,
     ) -> Result<Validation, TrainError> {
-        let (mut sum, mut intensity) = (0.0, 0.0);
+        let architecture = &recipe.light.architecture;
+        let guide = architecture.guided.then(|| {
+            let weights = normal_weights(&recipe.light.guidance, device)?;
+            Ok::<_, TrainError>(weights.normal_network(device)?)
+        });
+        let guide = guide.transpose()?;
+        let (mut sum, mut first_sum, mut intensity) = (0.0, 0.0, 0.0);
         for sample in objects {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-            let lights = pollster::block_on(estimate_lights(
-                &recipe.light.architecture,
-                network,
-                &stack,
-                &mask,
-                Decoding::SoftArgmax,
-                device,
-                &mut Quiet,
-            ))?;
+            let look = |known| lights(architecture, network, &stack, &mask, known, device);
+            let mut lights = look(None)?;
+            first_sum += mean_light_error(&lights, &sample.lights)?;
+            if let Some((architecture, network)) = &guide {
+                let normals = pollster::block_on(estimate_normals(
+                    architecture,
+                    network,
+                    &stack,
+                    &mask,
+                    &lights,
+                    device,
+                    Stage::Normals,
+                    &mut Quiet,
+                ))?;
+                lights = look(Some(Known {
+                    normals: &normals,
+                    lights: &lights,
+                }))?;
+            }
             sum += mean_light_error(&lights, &sample.lights)?;
             intensity += intensity_error(&lights, &sample.lights)?;
         }
-        let intensity = intensity / objects.len() as f32;
+        let mean = |sum: f32| sum / objects.len() as f32;
+        let mut figures = BTreeMap::from([("intensity_error".to_owned(), mean(intensity))]);
+        if guide.is_some() {
+            figures.insert("first_degrees".to_owned(), mean(first_sum).to_degrees());
+        }
         Ok(Validation {
-            degrees: (sum / objects.len() as f32).to_degrees(),
-            figures: BTreeMap::from([("intensity_error".to_owned(), intensity)]),
+            degrees: mean(sum).to_degrees(),
+            figures,
         })
     }
 
@@ -175,6 +211,40 @@ impl Task for LightTask {
             &BTreeMap::new(),
         )?)
     }
+}
+
+/// What guides the network in a training sample.
+fn guidance(
+    recipe: &TrainRecipe,
+    sample: &Sample,
+    predicted: Option<&Predicted>,
+    seed: u64,
+) -> Option<Guidance> {
+    match GuidedBy::choose(&recipe.light, seed) {
+        GuidedBy::Nothing => None,
+        GuidedBy::Networks => predicted.map(|one| Guidance::new(one.normals.clone(), &one.lights)),
+        GuidedBy::Truth => Some(distorted(&recipe.light.guidance, sample, seed)),
+    }
+}
+
+fn lights(
+    architecture: &LightArchitecture,
+    network: &LightNetwork,
+    stack: &ImageStack,
+    mask: &Mask,
+    known: Option<Known<'_>>,
+    device: &Device,
+) -> Result<Vec<Light>, TrainError> {
+    Ok(pollster::block_on(estimate_lights(
+        architecture,
+        network,
+        stack,
+        mask,
+        known,
+        Decoding::SoftArgmax,
+        device,
+        &mut Quiet,
+    ))?)
 }
 
 fn heads(bins: &LightBins) -> [usize; 3] {

@@ -34,7 +34,7 @@ fn mean_intensity(lights: &[Light]) -> f32 {
 }
 
 /// Uniform in [0, 1), 24 bits.
-fn unit(number: u64) -> f32 {
+pub(crate) fn unit(number: u64) -> f32 {
     (number >> 40) as f32 / 16_777_216.0
 }
 
@@ -63,10 +63,10 @@ pub(crate) fn disturbed(settings: &NormalSettings, lights: &[Light], seed: u64) 
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A small reproducible source of disturbances (SplitMix64, Steele et al. 2014).
-struct Noise(u64);
+pub(crate) struct Noise(u64);
 
 impl Noise {
-    fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed ^ 0x6c69_6768_7473)
     }
 
@@ -77,16 +77,16 @@ impl Noise {
     }
 
     /// Strength of this sample's disturbance: from none to twice the recipe's.
-    fn share(&mut self) -> f32 {
+    pub(crate) fn share(&mut self) -> f32 {
         2.0 * self.unit()
     }
 
     /// Mean 0, deviation 1.
-    fn normal(&mut self) -> f32 {
+    pub(crate) fn normal(&mut self) -> f32 {
         (0..12).map(|_| self.unit()).sum::<f32>() - 6.0
     }
 
-    fn vector(&mut self) -> Vec3 {
+    pub(crate) fn vector(&mut self) -> Vec3 {
         // Deviation 1 over the two axes that move a direction.
         Vec3::new(self.normal(), self.normal(), self.normal()) * std::f32::consts::FRAC_1_SQRT_2
     }

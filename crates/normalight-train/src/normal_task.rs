@@ -2,11 +2,12 @@ use crate::batch::Batch;
 use crate::init::{check_start, init_error};
 use crate::lights::{disturbed, mixed};
 use crate::named_tensors::{collect, fill};
+use crate::predicted::Predicted;
 use crate::task::{Task, Validation};
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{Light, normal_error};
+use normalight_core::normal_error;
 use normalight_kernels::{channels_first, max_over_images};
 use normalight_model::{
     AuxiliaryTower, NormalBody, NormalNetwork, Quiet, Stage, Weights, estimate_normals,
@@ -63,10 +64,11 @@ impl Task for NormalTask {
     fn append(
         recipe: &TrainRecipe,
         sample: &Sample,
-        predicted: Option<&[Light]>,
+        predicted: Option<&Predicted>,
         seed: u64,
         batch: &mut Batch,
     ) {
+        let predicted = predicted.map(|predicted| predicted.lights.as_slice());
         let lights = mixed(&recipe.normal, &sample.lights, predicted, seed);
         let area = sample.size * sample.size;
         let mut squares = vec![0.0f32; 3 * area];

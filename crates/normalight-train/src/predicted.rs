@@ -1,28 +1,44 @@
-//! The errors that a light network makes, as the lights of training samples.
-use crate::{Network, TrainError, TrainRecipe};
+//! What trained networks say about samples: the errors of a light network as the lights of the normal network's
+//! samples; lights and normals to guide a light network.
+use crate::{GuidanceMix, Network, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use glam::Vec3;
-use normalight_core::{Decoding, Light};
+use normalight_core::{Decoding, ImageStack, Light, Mask};
 use normalight_model::{
-    LightArchitecture, LightNetwork, Quiet, Weights, default_weights, estimate_lights,
+    LightArchitecture, LightNetwork, NormalArchitecture, NormalNetwork, Quiet, Stage, Weights,
+    default_weights, estimate_lights, estimate_normals,
 };
 use normalight_synth::{Sample, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A light network that looks at scenes. Every thread has its own: GPUs keep their work by thread.
+/// A light network, perhaps with a normal network, that looks at scenes. Every thread has its own: GPUs keep their
+/// work by thread.
 pub(crate) struct Predictor {
-    weights: Arc<Weights>,
+    light_weights: Arc<Weights>,
+    normal_weights: Option<Arc<Weights>>,
     device: Device,
-    network: Option<(LightArchitecture, LightNetwork)>,
+    light: Option<(LightArchitecture, LightNetwork)>,
+    normal: Option<(NormalArchitecture, NormalNetwork)>,
+}
+
+/// What networks say about one sample.
+#[derive(Debug)]
+pub(crate) struct Predicted {
+    /// One for each image; intensities relative to their mean.
+    pub(crate) lights: Vec<Light>,
+    /// Unit normals, zero outside the mask; `[size, size]`. None without a normal network.
+    pub(crate) normals: Vec<Vec3>,
 }
 
 impl Clone for Predictor {
     fn clone(&self) -> Self {
         Self {
-            weights: Arc::clone(&self.weights),
+            light_weights: Arc::clone(&self.light_weights),
+            normal_weights: self.normal_weights.clone(),
             device: self.device.clone(),
-            network: None,
+            light: None,
+            normal: None,
         }
     }
 }
@@ -37,15 +53,24 @@ pub(crate) struct Prediction {
 }
 
 impl Predictor {
-    /// For a recipe that asks for predicted lights.
+    /// For a recipe that asks for predicted lights, or for guidance by predictions.
     ///
     /// # Errors
     /// The file, or weights of another network.
     pub(crate) fn of(recipe: &TrainRecipe, device: &Device) -> Result<Option<Self>, TrainError> {
-        let mix = &recipe.normal.lights;
-        (recipe.network == Network::Normal && mix.predicted > 0.0)
-            .then(|| Self::new(mix.light_weights.as_deref(), device))
-            .transpose()
+        let (mix, guidance) = (&recipe.normal.lights, &recipe.light.guidance);
+        let guided = recipe.light.architecture.guided;
+        match recipe.network {
+            Network::Normal if mix.predicted > 0.0 => {
+                Self::new(mix.light_weights.as_deref(), device).map(Some)
+            }
+            Network::Light if guided && guidance.predicted > 0.0 => {
+                let mut predictor = Self::new(guidance.light_weights.as_deref(), device)?;
+                predictor.normal_weights = Some(Arc::new(normal_weights(guidance, device)?));
+                Ok(Some(predictor))
+            }
+            _ => Ok(None),
+        }
     }
 
     /// `file`: a light network's weights; the shipped ones when missing.
@@ -63,30 +88,62 @@ impl Predictor {
         // Found out here, not on another thread.
         weights.light_network(device)?;
         Ok(Self {
-            weights: Arc::new(weights),
+            light_weights: Arc::new(weights),
+            normal_weights: None,
             device: device.clone(),
-            network: None,
+            light: None,
+            normal: None,
         })
     }
 
     /// Looks once at the whole scene under all of its lamps.
     pub(crate) fn predict(&mut self, scene: &Scene) -> Result<Prediction, TrainError> {
         let sample = scene.whole(scene.lamps());
+        let lights = self.lights(&sample.to_stack()?, &sample.to_mask())?;
+        Ok(Prediction::new(&lights, &sample.lights))
+    }
+
+    /// Looks at one sample of a whole object.
+    pub(crate) fn look(&mut self, sample: &Sample) -> Result<Predicted, TrainError> {
         let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-        let (architecture, network) = match &mut self.network {
-            Some(network) => network,
-            none => none.insert(self.weights.light_network(&self.device)?),
+        let lights = self.lights(&stack, &mask)?;
+        let Some(weights) = &self.normal_weights else {
+            let normals = Vec::new();
+            return Ok(Predicted { lights, normals });
         };
-        let predicted = pollster::block_on(estimate_lights(
+        let (architecture, network) = match &mut self.normal {
+            Some(network) => network,
+            none => none.insert(weights.normal_network(&self.device)?),
+        };
+        let normals = pollster::block_on(estimate_normals(
             architecture,
             network,
             &stack,
             &mask,
+            &lights,
+            &self.device,
+            Stage::Normals,
+            &mut Quiet,
+        ))?;
+        let normals = normals.normals().to_vec();
+        Ok(Predicted { lights, normals })
+    }
+
+    fn lights(&mut self, stack: &ImageStack, mask: &Mask) -> Result<Vec<Light>, TrainError> {
+        let (architecture, network) = match &mut self.light {
+            Some(network) => network,
+            none => none.insert(self.light_weights.light_network(&self.device)?),
+        };
+        Ok(pollster::block_on(estimate_lights(
+            architecture,
+            network,
+            stack,
+            mask,
+            None,
             Decoding::SoftArgmax,
             &self.device,
             &mut Quiet,
-        ))?;
-        Ok(Prediction::new(&predicted, &sample.lights))
+        ))?)
     }
 }
 
@@ -126,6 +183,23 @@ impl Prediction {
 fn mean(lights: &[Light]) -> f32 {
     let sum: f32 = lights.iter().map(Light::mean_intensity).sum();
     (sum / lights.len().max(1) as f32).max(1e-6)
+}
+
+/// The normal network that guides a light network.
+///
+/// # Errors
+/// The file, or weights of another network.
+pub(crate) fn normal_weights(mix: &GuidanceMix, device: &Device) -> Result<Weights, TrainError> {
+    let weights = match &mix.normal_weights {
+        Some(path) => read_weights(path)?,
+        None => {
+            let [_, normal] = default_weights()?;
+            normal
+        }
+    };
+    // Found out here, not on another thread.
+    weights.normal_network(device)?;
+    Ok(weights)
 }
 
 /// Reads a weights file of either network.

@@ -9,7 +9,7 @@ mod sources;
 pub(crate) use check::{MOST_GIGABYTES, check};
 pub(crate) use difference::{Difference, differences};
 pub(crate) use genotype::{read_table, take_out};
-pub use networks::{LightMix, LightSettings, NormalSettings};
+pub use networks::{GuidanceMix, LightMix, LightSettings, NormalSettings};
 pub use optimiser::{Decay, OptimiserRecipe, Schedule};
 pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
 
@@ -180,6 +180,8 @@ impl TrainRecipe {
         paths.extend(self.published.as_mut().map(|set| &mut set.folder));
         paths.extend(self.cache.as_mut().map(|cache| &mut cache.folder));
         paths.extend(self.normal.lights.light_weights.as_mut());
+        paths.extend(self.light.guidance.light_weights.as_mut());
+        paths.extend(self.light.guidance.normal_weights.as_mut());
         paths.extend(self.init.as_mut());
         for path in paths {
             *path = folder.join(&*path);

@@ -1,7 +1,8 @@
 //! From a recipe to batches of samples.
 use crate::batch::Batch;
+use crate::guidance::GuidedBy;
 use crate::loader::BatchMaker;
-use crate::predicted::{Prediction, Predictor};
+use crate::predicted::{Predicted, Prediction, Predictor};
 use crate::source::Source;
 use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
@@ -55,17 +56,23 @@ impl<T: Task> SampleMaker<T> {
             .scene(recipe, number, images, recipe.size, T::FRAMING)
     }
 
-    /// Sample `k` of a step, and the lights that a network predicts for it.
+    /// Sample `k` of a step, and what networks say about it.
     fn sample(
         &mut self,
         step: usize,
         k: usize,
         images: usize,
-    ) -> Result<(Sample, Option<Vec<normalight_core::Light>>), TrainError> {
+    ) -> Result<(Sample, Option<Predicted>), TrainError> {
         let recipe = Arc::clone(&self.recipe);
         if T::FRAMING == Framing::WholeObject {
-            let scene = self.scene(seed(&recipe, step, k), images)?;
-            return Ok((scene.whole(images), None));
+            let number = seed(&recipe, step, k);
+            let sample = self.scene(number, images)?.whole(images);
+            let guided = GuidedBy::choose(&recipe.light, number) == GuidedBy::Networks;
+            let predicted = match &mut self.predictor {
+                Some(predictor) if guided => Some(predictor.look(&sample)?),
+                _ => None,
+            };
+            return Ok((sample, predicted));
         }
         let parts = recipe.scene.sampling.crops_per_scene;
         let group = step / parts;
@@ -81,7 +88,10 @@ impl<T: Task> SampleMaker<T> {
         }
         let (scene, prediction) = &self.scenes[k];
         let sample = scene.crop(step % parts, images);
-        let predicted = prediction.as_ref().map(|one| one.lights(&sample));
+        let predicted = prediction.as_ref().map(|one| Predicted {
+            lights: one.lights(&sample),
+            normals: Vec::new(),
+        });
         Ok((sample, predicted))
     }
 }
@@ -122,7 +132,7 @@ impl<T: Task> BatchMaker for SampleMaker<T> {
                 });
             }
             let seed = seed(&recipe, step, k);
-            T::append(&recipe, &sample, predicted.as_deref(), seed, &mut batch);
+            T::append(&recipe, &sample, predicted.as_ref(), seed, &mut batch);
             batch.samples += 1;
         }
         Ok(batch)

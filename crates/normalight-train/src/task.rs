@@ -1,8 +1,8 @@
 use crate::batch::Batch;
+use crate::predicted::Predicted;
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor};
-use normalight_core::Light;
 use normalight_model::Weights;
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
@@ -35,11 +35,11 @@ pub(crate) trait Task: Sized + 'static {
     /// What the network is shown: whole objects or crops.
     const FRAMING: Framing;
 
-    /// Adds a sample to a batch. `predicted`: its lights as a light network sees them.
+    /// Adds a sample to a batch. `predicted`: what networks say about it, where the recipe asks them.
     fn append(
         recipe: &TrainRecipe,
         sample: &Sample,
-        predicted: Option<&[Light]>,
+        predicted: Option<&Predicted>,
         seed: u64,
         batch: &mut Batch,
     );

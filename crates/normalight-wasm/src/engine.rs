@@ -84,6 +84,9 @@ impl Engine {
             estimate: &estimate,
             settings: &settings,
             lights_file: lights.as_ref().map(|file| file.name.as_str()),
+            second_pass: self
+                .estimator
+                .second_pass(&settings.estimating(), given.is_some()),
             weights: self.estimator.weight_hashes(),
             device: &self.device,
             seconds: follower.finish(),

@@ -8,7 +8,7 @@ use normalight_io::{
     ColorMode, Report, StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, lights_csv,
     lights_lp, lights_svg, mask_png, normals_npy, normals_png, normals_rgba, report_json,
 };
-use normalight_model::Estimate;
+use normalight_model::{Estimate, SecondPass};
 use serde::Serialize;
 use serde_json::json;
 use wasm_bindgen::JsValue;
@@ -19,6 +19,7 @@ pub(crate) struct Run<'a> {
     pub(crate) estimate: &'a Estimate,
     pub(crate) settings: &'a Settings,
     pub(crate) lights_file: Option<&'a str>,
+    pub(crate) second_pass: Option<SecondPass>,
     pub(crate) weights: [&'a str; 2],
     pub(crate) device: &'a str,
     pub(crate) seconds: Vec<StageSeconds>,
@@ -142,7 +143,7 @@ fn report(run: &Run<'_>, names: &[String]) -> Result<Vec<u8>, Failure> {
             "images": run.settings.images,
             "normal_format": run.settings.normal_format,
             "color": run.settings.color,
-            "refit": run.settings.refit,
+            "second_pass": SecondPass::name(run.second_pass),
         }),
         seconds: run.seconds.clone(),
     })?)
@@ -151,7 +152,6 @@ fn report(run: &Run<'_>, names: &[String]) -> Result<Vec<u8>, Failure> {
 fn lights_in_words<'a>(run: &Run<'a>) -> &'a str {
     match run.lights_file {
         Some(name) => name,
-        None if run.settings.refit => "estimated by the light network, refitted to the normals",
-        None => "estimated by the light network",
+        None => SecondPass::words(run.second_pass),
     }
 }

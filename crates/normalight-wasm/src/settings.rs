@@ -1,6 +1,5 @@
 //! Settings as JavaScript words.
 use crate::error::Failure;
-use normalight_core::RefitSettings;
 use normalight_io::{ColorMode, MaskChoice, NamedBytes, NormalFormat, ReadOptions};
 use normalight_model::EstimateSettings;
 use serde::{Deserialize, Serialize};
@@ -75,7 +74,7 @@ impl Settings {
 
     pub(crate) fn estimating(&self) -> EstimateSettings {
         EstimateSettings {
-            refit: self.refit.then(RefitSettings::default),
+            second_pass: self.refit,
             ..EstimateSettings::default()
         }
     }

@@ -17,6 +17,9 @@ pub struct LightSettings {
     pub direction_weight: f32,
     /// Weight of the squared error of the logarithm of the expected intensity.
     pub intensity_weight: f32,
+    /// What a guided network is shown besides photographs.
+    #[serde(skip_serializing_if = "GuidanceMix::is_default")]
+    pub guidance: GuidanceMix,
 }
 
 impl Default for LightSettings {
@@ -26,6 +29,7 @@ impl Default for LightSettings {
             label_deviation: 1.0,
             direction_weight: 5.0,
             intensity_weight: 0.5,
+            guidance: GuidanceMix::default(),
         }
     }
 }
@@ -38,7 +42,68 @@ impl LightSettings {
         check(field, self.direction_weight, 0.0, 1e3, "0 to 1000")?;
         let field = "light.intensity_weight";
         check(field, self.intensity_weight, 0.0, 1e3, "0 to 1000")?;
+        self.guidance.validate()?;
         Ok(self.architecture.validate()?)
+    }
+}
+
+/// Shares of a guided light network's samples by what guides it; the others show a first look, where nothing
+/// is known.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GuidanceMix {
+    /// Lights and normals as other networks estimate them from the sample.
+    pub predicted: f32,
+    /// True lights and normals in a basis that is a little wrong.
+    pub perturbed: f32,
+    /// Deviation of the perturbed basis, in degrees: turned, and stretched by as many radians.
+    pub drift_degrees: f32,
+    /// Deviation of each perturbed light by itself, in degrees.
+    pub noise_degrees: f32,
+    /// Relative deviation of perturbed intensities.
+    pub intensity_noise: f32,
+    /// The light network that predicts; the shipped one when missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub light_weights: Option<PathBuf>,
+    /// The normal network that predicts, and that unseen objects are validated with; the shipped one when
+    /// missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_weights: Option<PathBuf>,
+}
+
+impl Default for GuidanceMix {
+    fn default() -> Self {
+        Self {
+            predicted: 0.5,
+            perturbed: 0.0,
+            drift_degrees: 6.0,
+            noise_degrees: 3.0,
+            intensity_noise: 0.08,
+            light_weights: None,
+            normal_weights: None,
+        }
+    }
+}
+
+impl GuidanceMix {
+    /// Left out of recipes that are written: those of networks without guidance stay as they were.
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn validate(&self) -> Result<(), TrainError> {
+        let field = "light.guidance.predicted";
+        check(field, self.predicted, 0.0, 1.0, "0 to 1")?;
+        let field = "light.guidance.perturbed";
+        check(field, self.perturbed, 0.0, 1.0, "0 to 1")?;
+        let field = "sum of the shares of light.guidance";
+        check(field, self.predicted + self.perturbed, 0.0, 1.001, "0 to 1")?;
+        let field = "light.guidance.drift_degrees";
+        check(field, self.drift_degrees, 0.0, 20.0, "0 to 20")?;
+        let field = "light.guidance.noise_degrees";
+        check(field, self.noise_degrees, 0.0, 45.0, "0 to 45")?;
+        let field = "light.guidance.intensity_noise";
+        check(field, self.intensity_noise, 0.0, 0.5, "0 to 0.5")
     }
 }
 
