@@ -7,6 +7,7 @@ pub(crate) mod direct;
 pub(crate) mod geometry;
 pub(crate) mod most;
 pub(crate) mod normalise;
+pub(crate) mod orthogonalise;
 pub(crate) mod product;
 pub(crate) mod transforms;
 pub(crate) mod transposed;

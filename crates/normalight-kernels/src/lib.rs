@@ -22,5 +22,6 @@ mod operations;
 
 pub use operations::{
     BatchMoments, Convolution, batch_norm, channels_first, channels_last, convolution,
-    depthwise_relu, generic, max_over_images, scale_channels, transposed_convolution,
+    depthwise_relu, generic, max_over_images, orthogonalised, scale_channels,
+    transposed_convolution,
 };

@@ -7,8 +7,8 @@
 //! networks are small enough to travel at every step.
 
 use crate::TrainRecipe;
-use crate::adam::host;
 use crate::batch::Batch;
+use crate::optimiser::host;
 use crate::task::Task;
 use burn::module::{Module, ModuleVisitor, Param};
 use burn::optim::GradientsParams;
@@ -191,11 +191,10 @@ fn shares<T: Task>(parts: Vec<Batch>) -> Vec<(Batch, f32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::adam::Adam;
-    use crate::adam::HostGradients;
     use crate::light_task::LightTask;
     use crate::loader::BatchMaker;
     use crate::normal_task::NormalTask;
+    use crate::optimiser::{HostGradients, Optimiser};
     use crate::samples::SampleMaker;
     use crate::source::Source;
     use normalight_model::{CellNormal, Genotypes, NormalBody, Upsampling};
@@ -260,7 +259,7 @@ mod tests {
         // Weights are drawn when first wanted; a clone made before would draw its own.
         let start = values(&alone, None).concat();
         let mut together = alone.clone();
-        let mut adams = [Adam::default(), Adam::default()];
+        let mut optimisers = [Optimiser::default(), Optimiser::default()];
         for batch in &batches::<T>(recipe) {
             let loss = T::loss(recipe, &alone, batch, main);
             let gradients = loss.backward();
@@ -276,8 +275,8 @@ mod tests {
             }
             let [own, sum] = [(&alone, &gradients), (&together, &summed)]
                 .map(|(network, gradients)| HostGradients::new(network, gradients));
-            alone = adams[0].step(alone, own, 1e-3, &recipe.optimiser);
-            together = adams[1].step(together, sum, 1e-3, &recipe.optimiser);
+            alone = optimisers[0].step(alone, own, 1e-3, &recipe.optimiser);
+            together = optimisers[1].step(together, sum, 1e-3, &recipe.optimiser);
         }
         let moved = |network: &T::Network| -> Vec<f32> {
             let weights = values(network, None).concat();

@@ -6,7 +6,6 @@
 //! learner and nothing else.
 #![deny(missing_docs)]
 
-mod adam;
 mod average;
 mod batch;
 mod cache;
@@ -25,6 +24,7 @@ mod model_card;
 mod named_tensors;
 mod network_learner;
 mod normal_task;
+mod optimiser;
 mod predicted;
 mod recipe;
 mod run;
@@ -41,8 +41,9 @@ mod training_loop;
 pub use error::TrainError;
 pub use evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
 pub use recipe::{
-    CacheRecipe, Decay, GuidanceMix, LightMix, LightSettings, Network, NormalSettings,
-    OptimiserRecipe, PublishedChoice, PublishedRecipe, Schedule, TrainRecipe,
+    CacheRecipe, Decay, DepthwiseRule, GuidanceMix, LightMix, LightSettings, MuonRecipe, Network,
+    NormalSettings, OptimiserKind, OptimiserRecipe, PublishedChoice, PublishedRecipe, Schedule,
+    TrainRecipe,
 };
 pub use run::{Devices, TrainRun, train};
 pub use search::{

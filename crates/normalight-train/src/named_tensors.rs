@@ -1,5 +1,5 @@
 //! A network's numbers under the names of its parts, on the host.
-use crate::adam::host;
+use crate::optimiser::host;
 use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
 use burn::tensor::{Tensor, TensorData};
 use std::collections::BTreeMap;

@@ -1,10 +1,10 @@
-//! One of the two networks as a learner: its weights, Adam and their average.
-use crate::adam::{Adam, HostGradients};
+//! One of the two networks as a learner: its weights, their optimiser and their average.
 use crate::average::Average;
 use crate::batch::Batch;
 use crate::data_parallel::{Replicas, scalar};
 use crate::learner::{Learned, Learner};
 use crate::named_tensors::{NamedTensors, collect, fill, put, take};
+use crate::optimiser::{HostGradients, Optimiser};
 use crate::samples::first_scene;
 use crate::task::{Task, Validation};
 use crate::{TrainError, TrainRecipe};
@@ -31,7 +31,7 @@ pub(crate) struct NetworkLearner<'a, T: Task> {
     network: T::Network,
     /// Other devices that compute a part of the gradients.
     replicas: Option<Replicas<T>>,
-    adam: Adam,
+    optimiser: Optimiser,
     average: Option<Average>,
     /// Unseen.
     objects: Vec<Sample>,
@@ -58,7 +58,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
             training,
             network,
             replicas,
-            adam: Adam::default(),
+            optimiser: Optimiser::default(),
             average,
             objects: Vec::new(),
         })
@@ -127,7 +127,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
             let optimiser = &self.recipe.optimiser;
             let network = self.network.clone();
             self.network = self
-                .adam
+                .optimiser
                 .step(network, gradients, self.rate(step), optimiser);
             if let Some(average) = &mut self.average {
                 average.add(step + 1, &collect(&self.network.valid()));
@@ -149,7 +149,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
     fn state(&self) -> NamedTensors {
         let mut state = NamedTensors::new();
         put(&mut state, WEIGHT, collect(&self.network.valid()));
-        self.adam.save(&mut state);
+        self.optimiser.save(&mut state);
         if let Some(average) = &self.average {
             put(&mut state, AVERAGE, average.values.clone());
         }
@@ -162,7 +162,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
         if let Some(name) = weights.keys().next() {
             return Err(format!("weight {name} is of another network"));
         }
-        self.adam = Adam::load(&mut state, step)?;
+        self.optimiser = Optimiser::load(&mut state, step)?;
         if let Some(average) = &mut self.average {
             average.values = take(&mut state, AVERAGE);
             fill(self.network.valid(), &mut average.values.clone())

@@ -17,7 +17,8 @@ use std::collections::BTreeMap;
 
 /// The normal estimation network on crops, with lights that are a little wrong.
 ///
-/// Target: `[samples, 4, size, size]`, the true normal (zero outside the object) and the mask.
+/// Target: `[samples, 4, size, size]`, the true normal times the pixel's weight in the loss, and that weight; all zero
+/// outside the object.
 pub(crate) struct NormalTask;
 
 /// The normal network, and the tower that helps its features while it is trained and then goes.
@@ -99,12 +100,15 @@ impl Task for NormalTask {
                 }
             }
         }
+        // Weights of pixels enter as the length of the true normal and as the mask's value.
+        let weights = pixel_weights(sample, recipe.normal.curvature_weight);
         for axis in 0..3 {
+            let normals = sample.normals.iter().zip(&weights);
             batch
                 .target
-                .extend(sample.normals.iter().map(|normal| normal[axis]));
+                .extend(normals.map(|(normal, weight)| normal[axis] * weight));
         }
-        batch.target.extend(mask_plane(sample));
+        batch.target.extend(&weights);
     }
 
     fn channels(recipe: &TrainRecipe) -> usize {
@@ -188,9 +192,66 @@ impl Task for NormalTask {
     }
 }
 
-fn mask_plane(sample: &Sample) -> impl Iterator<Item = f32> {
-    sample
-        .mask
-        .iter()
-        .map(|&inside| f32::from(u8::from(inside)))
+/// Weight of every pixel in the loss: 0 outside the object, 1 inside plus `curvature` times the mean distance of its normal
+/// from those of its neighbours (up to four).
+fn pixel_weights(sample: &Sample, curvature: f32) -> Vec<f32> {
+    let size = sample.size;
+    let weight = |(pixel, &inside): (usize, &bool)| {
+        if !inside || curvature == 0.0 {
+            return f32::from(u8::from(inside));
+        }
+        let (x, y) = (pixel % size, pixel / size);
+        let neighbours = [
+            (x > 0).then(|| pixel - 1),
+            (x + 1 < size).then(|| pixel + 1),
+            (y > 0).then(|| pixel - size),
+            (y + 1 < size).then(|| pixel + size),
+        ];
+        let neighbours = neighbours.into_iter().flatten();
+        let (mut sum, mut count) = (0.0, 0.0f32);
+        for neighbour in neighbours.filter(|&neighbour| sample.mask[neighbour]) {
+            sum += sample.normals[neighbour].distance(sample.normals[pixel]);
+            count += 1.0;
+        }
+        1.0 + curvature * sum / count.max(1.0)
+    };
+    sample.mask.iter().enumerate().map(weight).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use normalight_synth::{Preset, Renderer};
+
+    /// A fold of 90 degrees between two planes: its two columns weigh more, by the chord to one of their neighbours.
+    #[test]
+    fn folds_weigh_more() {
+        let renderer = Renderer::new(Preset::World.recipe()).unwrap();
+        let mut sample = renderer.sample(0, 3, 16, Framing::Crop);
+        let size = sample.size;
+        let slope = std::f32::consts::FRAC_1_SQRT_2;
+        for pixel in 0..size * size {
+            let side = if pixel % size < size / 2 {
+                -slope
+            } else {
+                slope
+            };
+            sample.normals[pixel] = Vec3::new(side, 0.0, slope);
+            sample.mask[pixel] = pixel / size > 0;
+        }
+        let weights = pixel_weights(&sample, 2.0);
+        for (pixel, weight) in weights.iter().enumerate() {
+            let (x, y) = (pixel % size, pixel / size);
+            let neighbours = if y == 1 || y + 1 == size { 3.0 } else { 4.0 };
+            let expected = match (y, x == size / 2 - 1 || x == size / 2) {
+                (0, _) => 0.0,
+                (_, false) => 1.0,
+                (_, true) => 1.0 + 2.0 * 2.0f32.sqrt() / neighbours,
+            };
+            assert!((weight - expected).abs() < 1e-5, "{x} {y}: {weight}");
+        }
+        let plain = pixel_weights(&sample, 0.0);
+        assert_eq!(plain.iter().sum::<f32>(), (size * (size - 1)) as f32);
+    }
 }

@@ -10,7 +10,7 @@ pub(crate) use check::{MOST_GIGABYTES, check};
 pub(crate) use difference::{Difference, differences};
 pub(crate) use genotype::{read_table, take_out};
 pub use networks::{GuidanceMix, LightMix, LightSettings, NormalSettings};
-pub use optimiser::{Decay, OptimiserRecipe, Schedule};
+pub use optimiser::{Decay, DepthwiseRule, MuonRecipe, OptimiserKind, OptimiserRecipe, Schedule};
 pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
 
 use crate::TrainError;

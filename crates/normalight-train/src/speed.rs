@@ -1,7 +1,7 @@
 //! Parts of a training step by themselves, for measuring their speed.
-use crate::adam::{Adam, HostGradients};
 use crate::loader::BatchMaker;
 use crate::normal_task::NormalTask;
+use crate::optimiser::{HostGradients, Optimiser};
 use crate::samples::SampleMaker;
 use crate::source::Source;
 use crate::task::Task;
@@ -11,18 +11,26 @@ use burn::tensor::Gradients;
 use std::sync::Arc;
 
 /// The optimiser as training uses it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct OptimiserStep {
-    adam: Adam,
+    optimiser: Optimiser,
     recipe: OptimiserRecipe,
 }
 
 impl OptimiserStep {
-    /// Gradients to the host, clipping, Adam, weights back to the device.
+    /// Before its first step.
+    pub fn new(recipe: OptimiserRecipe) -> Self {
+        Self {
+            optimiser: Optimiser::default(),
+            recipe,
+        }
+    }
+
+    /// Gradients to the host, clipping, the step, weights back to the device.
     pub fn take<M: Module>(&mut self, network: M, gradients: &Gradients) -> M {
         let gradients = HostGradients::new(&network, gradients);
         let rate = self.recipe.learning_rate;
-        self.adam.step(network, gradients, rate, &self.recipe)
+        self.optimiser.step(network, gradients, rate, &self.recipe)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Training of a light network that looks again.
 mod common;
 
-use common::*;
 use burn::tensor::Device;
+use common::*;
 use normalight_model::{Architecture, LightArchitecture, LightBody, PlainLight, Weights};
 use normalight_train::{RunState, TrainError, TrainRecipe};
 use safetensors::SafeTensors;
@@ -56,7 +56,11 @@ fn used(bytes: &[u8]) -> Vec<bool> {
 fn a_widened_start_learns_to_use_its_guidance() {
     let place = tempfile::tempdir().unwrap();
     let init = place.path().join("light.safetensors");
-    std::fs::write(&init, include_bytes!("../../../models/default/light.safetensors")).unwrap();
+    std::fs::write(
+        &init,
+        include_bytes!("../../../models/default/light.safetensors"),
+    )
+    .unwrap();
     for (guidance, learns) in [
         ("predicted = 1.0\n", true),
         ("predicted = 0.0\nperturbed = 1.0\n", true),
@@ -84,7 +88,11 @@ fn a_widened_start_learns_to_use_its_guidance() {
 fn other_starts_are_refused() {
     let place = tempfile::tempdir().unwrap();
     let init = place.path().join("light.safetensors");
-    std::fs::write(&init, include_bytes!("../../../models/default/light.safetensors")).unwrap();
+    std::fs::write(
+        &init,
+        include_bytes!("../../../models/default/light.safetensors"),
+    )
+    .unwrap();
     let mut recipe = recipe_with("predicted = 0.5\n");
     recipe.init = Some(init);
     recipe.light.architecture = LightArchitecture {

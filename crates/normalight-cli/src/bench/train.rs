@@ -126,17 +126,18 @@ fn matmul(device: &Device, least: Duration) -> f64 {
 fn to_text(report: &Report) -> String {
     let mut text = String::from(
         "milliseconds a sample of ten 32x32 images, batch 16; speed of forward and backward together\n\n\
-         network      threads   forward  backward      both  optimiser      data   GFLOP/s  of matmul\n",
+         network      threads   forward  backward      both      adam      muon      data   GFLOP/s  of matmul\n",
     );
     for case in &report.cases {
         text += &format!(
-            "{:12} {:7} {:9.2} {:9.2} {:9.2} {:10.2} {:9.2} {:9.0} {:8.0} %\n",
+            "{:12} {:7} {:9.2} {:9.2} {:9.2} {:9.2} {:9.2} {:9.2} {:9.0} {:8.0} %\n",
             case.name,
             case.threads,
             case.forward_ms,
             case.backward_ms,
             case.ms_per_sample,
-            case.optimiser_ms,
+            case.adam_ms,
+            case.muon_ms,
             case.data_ms,
             case.gflops,
             100.0 * case.share_of_matmul

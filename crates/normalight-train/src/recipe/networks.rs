@@ -115,6 +115,9 @@ pub struct NormalSettings {
     pub architecture: NormalArchitecture,
     /// Weight of the auxiliary tower's loss; 0 builds no tower.
     pub auxiliary_weight: f32,
+    /// How much more bent surface counts in the loss: a pixel weighs 1 + this times the mean distance (chord) of its
+    /// normal from those of its neighbours; 0 weighs all alike.
+    pub curvature_weight: f32,
     /// Deviation of each light by itself, in degrees, where lights are perturbed.
     pub light_noise_degrees: f32,
     /// Deviation of a drift common to all lights of a sample, in degrees.
@@ -130,6 +133,7 @@ impl Default for NormalSettings {
         Self {
             architecture: NormalArchitecture::plain(),
             auxiliary_weight: 0.4,
+            curvature_weight: 0.0,
             light_noise_degrees: 3.0,
             light_drift_degrees: 3.0,
             intensity_noise: 0.05,
@@ -169,6 +173,8 @@ impl NormalSettings {
     pub(super) fn validate(&self) -> Result<(), TrainError> {
         let field = "normal.auxiliary_weight";
         check(field, self.auxiliary_weight, 0.0, 10.0, "0 to 10")?;
+        let field = "normal.curvature_weight";
+        check(field, self.curvature_weight, 0.0, 100.0, "0 to 100")?;
         let field = "normal.light_noise_degrees";
         check(field, self.light_noise_degrees, 0.0, 45.0, "0 to 45")?;
         let field = "normal.light_drift_degrees";

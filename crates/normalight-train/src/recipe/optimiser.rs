@@ -6,6 +6,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OptimiserRecipe {
+    /// Which weights follow which rule.
+    pub kind: OptimiserKind,
+    /// Settings of Muon.
+    pub muon: MuonRecipe,
     /// Highest learning rate of Adam.
     pub learning_rate: f32,
     /// Adam's averaging of gradients and of their squares.
@@ -25,6 +29,49 @@ pub struct OptimiserRecipe {
     /// Decay of the exponential moving average of the weights, which then is what is validated and
     /// kept; 0 is no average.
     pub average: f32,
+}
+
+/// Rules for weights to follow gradients.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OptimiserKind {
+    /// Adam (Kingma & Ba 2015) for all weights.
+    Adam,
+    /// Muon (Jordan et al. 2024) for convolutions and matrices but those of output layers, Adam for the rest.
+    Muon,
+}
+
+/// Muon's settings; its five Newton-Schulz steps and their coefficients are as published.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MuonRecipe {
+    /// Its learning rate over Adam's; one of 1 moves every weight of a square layer by about a learning rate over the
+    /// root of its width.
+    pub rate_factor: f32,
+    /// Decay of the sum of gradients.
+    pub momentum: f32,
+    /// Who moves depthwise convolutions.
+    pub depthwise: DepthwiseRule,
+}
+
+/// Rules for depthwise convolutions, whose channels are no matrix together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DepthwiseRule {
+    /// Adam.
+    Adam,
+    /// Muon on every channel's filter by itself: steps of the same length for each.
+    Filters,
+}
+
+impl Default for MuonRecipe {
+    fn default() -> Self {
+        Self {
+            rate_factor: 10.0,
+            momentum: 0.95,
+            depthwise: DepthwiseRule::Adam,
+        }
+    }
 }
 
 /// How weights are pulled towards zero.
@@ -65,6 +112,8 @@ fn final_rate() -> f32 {
 impl Default for OptimiserRecipe {
     fn default() -> Self {
         Self {
+            kind: OptimiserKind::Adam,
+            muon: MuonRecipe::default(),
             learning_rate: 1e-3,
             betas: [0.9, 0.999],
             epsilon: 1e-8,
@@ -88,6 +137,10 @@ impl OptimiserRecipe {
         for beta in self.betas {
             check("optimiser.betas", beta, 0.0, below_one, "0 to below 1")?;
         }
+        let field = "optimiser.muon.momentum";
+        check(field, self.muon.momentum, 0.0, below_one, "0 to below 1")?;
+        let field = "optimiser.muon.rate_factor";
+        check(field, self.muon.rate_factor, 1e-3, 1e3, "0.001 to 1000")?;
         let field = "optimiser.epsilon";
         check(field, self.epsilon, 1e-16, 1.0, "above 0, at most 1")?;
         let field = "optimiser.weight_decay";
@@ -150,6 +203,8 @@ mod tests {
     fn impossible_settings_are_refused() {
         for (text, part) in [
             ("betas = [0.9, 1.0]", "betas is 1"),
+            ("muon = { momentum = 1.0 }", "momentum is 1"),
+            ("muon = { rate_factor = 0.0 }", "rate_factor is 0"),
             ("average = 1.5", "average is 1.5"),
             (
                 "schedule = { kind = \"step\", every = 0, factor = 0.5 }",
@@ -165,6 +220,8 @@ mod tests {
             "rate = 1",
             "schedule = { kind = \"cosine\", every = 3 }",
             "decay = \"l1\"",
+            "kind = \"lion\"",
+            "muon = { steps = 3 }",
         ] {
             assert!(toml::from_str::<OptimiserRecipe>(text).is_err(), "{text}");
         }

@@ -5,12 +5,12 @@ use super::drawing::{cell_svg, weights_svg};
 use super::history::History;
 use super::samples::Halves;
 use super::{Order, SearchRecipe, SearchTask};
-use crate::adam::{Adam, HostGradients};
 use crate::batch::Batch;
 use crate::data_parallel::scalar;
 use crate::learner::{Learned, Learner};
 use crate::named_tensors::{NamedTensors, collect, fill, put, take};
 use crate::network_learner::seeded;
+use crate::optimiser::{HostGradients, Optimiser};
 use crate::samples::first_scene;
 use crate::task::Validation;
 use crate::{OptimiserRecipe, TrainError};
@@ -36,10 +36,10 @@ pub(super) struct SearchLearner<'a, T: SearchTask> {
     training: Device,
     network: T::Network,
     /// Of the weights.
-    adam: Adam,
+    weight_optimiser: Optimiser,
     /// Of the architecture.
-    alpha_adam: Adam,
-    alpha_optimiser: OptimiserRecipe,
+    alpha_optimiser: Optimiser,
+    alpha_recipe: OptimiserRecipe,
     costs: Option<Costs>,
     history: History,
     /// Unseen by both halves.
@@ -61,9 +61,9 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
             device,
             training,
             network,
-            adam: Adam::default(),
-            alpha_adam: Adam::default(),
-            alpha_optimiser: recipe.search.alpha.optimiser(),
+            weight_optimiser: Optimiser::default(),
+            alpha_optimiser: Optimiser::default(),
+            alpha_recipe: recipe.search.alpha.optimiser(),
             costs,
             history: History::default(),
             objects: Vec::new(),
@@ -124,11 +124,11 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
             gradient_norm: gradients.norm,
         };
         if learned.failure().is_none() {
-            let rate = self.alpha_optimiser.learning_rate;
+            let rate = self.alpha_recipe.learning_rate;
             let network = self.network.clone();
             self.network = self
-                .alpha_adam
-                .step(network, gradients, rate, &self.alpha_optimiser);
+                .alpha_optimiser
+                .step(network, gradients, rate, &self.alpha_recipe);
         }
         learned
     }
@@ -190,7 +190,7 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
     fn learn(&mut self, batch: &Halves, step: usize) -> Result<Learned, TrainError> {
         let skip = self.auxiliary_skip(step);
         T::relaxation_mut(&mut self.network).set_auxiliary_skip(skip);
-        let before = (self.network.clone(), self.alpha_adam.clone());
+        let before = (self.network.clone(), self.alpha_optimiser.clone());
         if step >= self.recipe.search.warm_up {
             let learned = self.learn_alpha(batch, step);
             if learned.failure().is_some() {
@@ -205,13 +205,15 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
             gradient_norm: gradients.norm,
         };
         if learned.failure().is_some() {
-            (self.network, self.alpha_adam) = before;
+            (self.network, self.alpha_optimiser) = before;
             return Ok(learned);
         }
         let rate = self.rate(step);
         let optimiser = &self.recipe.training.optimiser;
         let network = self.network.clone();
-        self.network = self.adam.step(network, gradients, rate, optimiser);
+        self.network = self
+            .weight_optimiser
+            .step(network, gradients, rate, optimiser);
         Ok(learned)
     }
 
@@ -246,9 +248,9 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
     fn state(&self) -> NamedTensors {
         let mut state = NamedTensors::new();
         put(&mut state, WEIGHT, collect(&self.network.valid()));
-        self.adam.save(&mut state);
+        self.weight_optimiser.save(&mut state);
         let mut alpha = NamedTensors::new();
-        self.alpha_adam.save(&mut alpha);
+        self.alpha_optimiser.save(&mut alpha);
         put(&mut state, ALPHA, alpha);
         self.history.save(&mut state);
         state
@@ -261,8 +263,8 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
             return Err(format!("weight {name} is of another network"));
         }
         let alpha_steps = step.saturating_sub(self.recipe.search.warm_up);
-        self.alpha_adam = Adam::load(&mut take(&mut state, ALPHA), alpha_steps)?;
-        self.adam = Adam::load(&mut state, step)?;
+        self.alpha_optimiser = Optimiser::load(&mut take(&mut state, ALPHA), alpha_steps)?;
+        self.weight_optimiser = Optimiser::load(&mut state, step)?;
         self.history = History::load(&mut state, &self.space, T::CELLS.len())?;
         Ok(())
     }

@@ -7,7 +7,7 @@ use normalight_model::{
     CellNormal, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Upsampling,
     normal_cost, paper_genotypes,
 };
-use normalight_train::{OptimiserStep, SampleSource, TrainRecipe};
+use normalight_train::{OptimiserKind, OptimiserRecipe, OptimiserStep, SampleSource, TrainRecipe};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -25,7 +25,10 @@ pub(super) struct Case {
     pub(super) ms_per_sample: f64,
     pub(super) forward_ms: f64,
     pub(super) backward_ms: f64,
-    pub(super) optimiser_ms: f64,
+    /// A step of Adam.
+    pub(super) adam_ms: f64,
+    /// A step of Muon.
+    pub(super) muon_ms: f64,
     /// One thread's time for drawing and preparing samples; in training other threads do it.
     pub(super) data_ms: f64,
     pub(super) samples_per_second: f64,
@@ -98,9 +101,18 @@ impl Candidate {
         let random = |shape| Tensor::<4>::random(shape, Distribution::Default, &device);
         let input = random([BATCH * IMAGES, SIDE, SIDE, channels]);
         let truth = random([BATCH, SIDE, SIDE, 3]);
-        let mut optimiser = OptimiserStep::default();
+        let optimiser = |kind| {
+            OptimiserStep::new(OptimiserRecipe {
+                kind,
+                ..OptimiserRecipe::default()
+            })
+        };
+        let (mut adam, mut muon) = (
+            optimiser(OptimiserKind::Adam),
+            optimiser(OptimiserKind::Muon),
+        );
         let mut network = Some(network);
-        let [both, forward, backward, step] = median_seconds(least, || {
+        let [both, forward, backward, of_adam, of_muon] = median_seconds(least, || {
             let trained = network.take().expect("every repetition leaves a network");
 
             let start = Instant::now();
@@ -110,8 +122,17 @@ impl Candidate {
             let forward = start.elapsed();
             let gradients = loss.backward();
             let both = start.elapsed();
-            network = Some(optimiser.take(trained, &gradients));
-            [both, forward, both - forward, start.elapsed() - both]
+            drop(adam.take(trained.clone(), &gradients));
+            let after_adam = start.elapsed();
+            network = Some(muon.take(trained, &gradients));
+            let after_muon = start.elapsed();
+            [
+                both,
+                forward,
+                both - forward,
+                after_adam - both,
+                after_muon - after_adam,
+            ]
         });
         let cost = normal_cost(&self.architecture, SIDE * SIDE);
         let per_sample = |seconds: f64| 1e3 * seconds / BATCH as f64;
@@ -122,7 +143,8 @@ impl Candidate {
             ms_per_sample: per_sample(both),
             forward_ms: per_sample(forward),
             backward_ms: per_sample(backward),
-            optimiser_ms: per_sample(step),
+            adam_ms: per_sample(of_adam),
+            muon_ms: per_sample(of_muon),
             data_ms,
             samples_per_second: BATCH as f64 / both,
             parameters: cost.parameters,
