@@ -219,8 +219,7 @@ fn a_guided_network_looks_again_and_another_is_refitted() {
             ..EstimateSettings::default()
         };
         let mut stages = Stages::default();
-        let estimate =
-            estimator.estimate(&scene.stack, &scene.mask, given, settings, &mut stages);
+        let estimate = estimator.estimate(&scene.stack, &scene.mask, given, settings, &mut stages);
         let lights = pollster::block_on(estimate).unwrap().lights;
         let pass = estimator.second_pass(&settings, given.is_some());
         (pass, stages.0, lights)
