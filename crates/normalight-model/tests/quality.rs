@@ -228,10 +228,9 @@ fn one_view_is_the_bare_network() {
         }
     }
     let input = TensorData::new(values, [IMAGES, 16, 24, 7]);
-    let features = untrained
-        .network
-        .features(Tensor::from_data(input, &untrained.device));
-    let output = untrained.network.regress(features.max_dim(0)).into_data();
+    let network = &untrained.network;
+    let fused = network.fuse(Tensor::from_data(input, &untrained.device), 1);
+    let output = network.regress(fused).into_data();
     let output = output.try_to_vec::<f32>().unwrap();
     let found = untrained
         .normals(&scene, Quality::Fast.views(), &mut Quiet)
