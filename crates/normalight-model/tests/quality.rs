@@ -313,15 +313,12 @@ fn mirrored_photographs_give_mirrored_lights() {
         });
         differences.fold(0.0, f32::max)
     };
-    let refit = Some(RefitSettings::default());
-    for (quality, refit) in [
-        (Quality::Default, None),
-        (Quality::Best, None),
-        (Quality::Best, refit),
-    ] {
-        let far = difference(quality, refit);
-        assert!(far < 1e-3, "{quality:?}, {refit:?}: {far}");
+    // How far the two are apart without averaging depends on the random weights.
+    let apart = difference(Quality::Fast, None);
+    for quality in [Quality::Default, Quality::Best] {
+        let far = difference(quality, None);
+        assert!(far < 0.1 * apart, "{quality:?}: {far} of {apart}");
     }
-    let far = difference(Quality::Fast, None);
-    assert!(far > 3e-3, "the views are all alike: {far}");
+    let far = difference(Quality::Best, Some(RefitSettings::default()));
+    assert!(far < 1e-3, "refitted: {far}");
 }
