@@ -211,7 +211,7 @@ fn one_view_is_the_bare_network() {
         for (y, row) in image.iter().enumerate() {
             for (x, pixel) in row.iter().enumerate() {
                 let inside = scene.inside[y][x];
-                for channel in 0..3 {
+                for (channel, value) in pixel.iter().enumerate() {
                     let relit = |image: usize| {
                         let factor = 1.0 / scene.lights[image].intensity[channel];
                         (scene.images[image][y][x][channel] * factor).powi(2)
@@ -220,7 +220,7 @@ fn one_view_is_the_bare_network() {
                     let scale = 1.0 / (square / IMAGES as f32).sqrt();
                     let factor = 1.0 / light.intensity[channel];
                     let scale = if inside { scale } else { 0.0 };
-                    values.push(pixel[channel] * factor * scale);
+                    values.push(value * factor * scale);
                 }
                 values.extend(light.direction.to_array());
                 values.push(f32::from(u8::from(inside)));

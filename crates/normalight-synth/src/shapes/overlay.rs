@@ -75,8 +75,8 @@ impl Overlay {
             let place = ray.at(view.depth[pixel]);
             let carved = normal - self.gradient(lattice, place, spread);
             view.normals[pixel] = faced(carved.normalize_or(normal), to_camera);
-            if !self.fine.is_flat() {
-                grooves[pixel] = self.fine.groove(lattice, place);
+            if let Some(groove) = grooves.get_mut(pixel) {
+                *groove = self.fine.groove(lattice, place);
             }
         }
         grooves
