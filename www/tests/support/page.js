@@ -5,7 +5,7 @@ import { chromium } from "playwright-core";
 import { preview } from "vite";
 
 /** Milliseconds for the longest step, a run on a GPU that two processor cores imitate. */
-const PATIENCE = 150_000;
+const PATIENCE = 300_000;
 
 const QUIET = [
   "--no-sandbox",
