@@ -321,7 +321,7 @@ pub(crate) struct BenchTrainArgs {
     /// Threads; default: one, then one for each core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) threads: Option<u32>,
-    /// Only these networks: plain-127k, plain-483k, paper-c8, paper-c16.
+    /// Only these networks: plain-127k, plain-483k, pixels-157k, paper-c8, paper-c16.
     #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = ["plain-127k", "plain-483k", "pixels-157k", "paper-c8", "paper-c16"])]
     pub(crate) only: Vec<String>,
     /// Every operation, too, against the same made of Burn's own.

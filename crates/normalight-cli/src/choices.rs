@@ -73,11 +73,14 @@ pub(crate) struct QualityChoice(pub(crate) Quality);
 
 impl ValueEnum for QualityChoice {
     fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [QualityChoice; 3] = [
-            QualityChoice(Quality::Fast),
-            QualityChoice(Quality::Default),
-            QualityChoice(Quality::Best),
-        ];
+        const ALL: [QualityChoice; Quality::ALL.len()] = {
+            let [first, second, third] = Quality::ALL;
+            [
+                QualityChoice(first),
+                QualityChoice(second),
+                QualityChoice(third),
+            ]
+        };
         &ALL
     }
 

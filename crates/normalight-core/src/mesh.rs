@@ -84,6 +84,11 @@ impl TriangleMesh {
         })
     }
 
+    /// Where the corners of a triangle are.
+    fn corners_in_space(&self, triangle: usize) -> [DVec3; 3] {
+        self.triangles[triangle].map(|vertex| self.positions[vertex as usize].as_dvec3())
+    }
+
     /// For each vertex, one that stands for all vertices at its place: scans repeat vertices along the
     /// seams of their texture.
     fn places(&self) -> Vec<u32> {
@@ -104,7 +109,8 @@ impl TriangleMesh {
     }
 }
 
-/// Normal times twice the area of the triangle with these corners. Double precision: squares of large coordinates overflow else.
+/// Normal times twice the area of the triangle with these corners. Double precision: squares of large
+/// coordinates overflow else.
 fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

@@ -101,6 +101,18 @@ pub struct PlainNormal {
     pub pixel_branch: usize,
 }
 
+impl PlainNormal {
+    /// Without residual layers and branch.
+    pub fn new(widths: [usize; 3], head: usize) -> Self {
+        Self {
+            widths,
+            head,
+            residuals: 0,
+            pixel_branch: 0,
+        }
+    }
+}
+
 fn is_zero(count: &usize) -> bool {
     *count == 0
 }
@@ -212,12 +224,7 @@ impl NormalArchitecture {
     pub fn plain() -> Self {
         Self {
             mask_channel: false,
-            body: NormalBody::Plain(PlainNormal {
-                widths: [16, 32, 64],
-                head: 32,
-                residuals: 0,
-                pixel_branch: 0,
-            }),
+            body: NormalBody::Plain(PlainNormal::new([16, 32, 64], 32)),
         }
     }
 

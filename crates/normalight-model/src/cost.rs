@@ -276,12 +276,7 @@ mod tests {
         );
         let wide = NormalArchitecture {
             mask_channel: false,
-            body: NormalBody::Plain(PlainNormal {
-                widths: [32, 64, 128],
-                head: 32,
-                residuals: 0,
-                pixel_branch: 0,
-            }),
+            body: NormalBody::Plain(PlainNormal::new([32, 64, 128], 32)),
         };
         assert_eq!(normal_cost(&wide, 1024).parameters, 482_531);
         let paper = paper_genotypes();

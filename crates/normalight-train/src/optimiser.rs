@@ -3,7 +3,7 @@ mod adam;
 mod gradients;
 mod muon;
 
-pub(crate) use gradients::{HostGradients, host};
+pub(crate) use gradients::{HostGradients, collect_gradients, host};
 
 use crate::named_tensors::{NamedTensors, put, take};
 use crate::{OptimiserKind, OptimiserRecipe};

@@ -25,7 +25,7 @@ impl TriangleMesh {
         // Triangles of one plane meet at no angle but for rounding.
         let least = libm::cos(f64::from(crease)) - 1e-9;
         let flat: Vec<DVec3> = (0..self.triangles.len())
-            .map(|triangle| area_vector(self.places_of(triangle)).normalize_or_zero())
+            .map(|triangle| area_vector(self.corners_in_space(triangle)).normalize_or_zero())
             .collect();
         let mut groups = Groups::new(3 * self.triangles.len());
         let sides = self.sides(&self.places());
@@ -44,7 +44,7 @@ impl TriangleMesh {
         }
         let mut sums = vec![DVec3::ZERO; 3 * self.triangles.len()];
         for (triangle, &normal) in flat.iter().enumerate() {
-            let places = self.places_of(triangle);
+            let places = self.corners_in_space(triangle);
             for corner in 0..3 {
                 let one = places[(corner + 1) % 3] - places[corner];
                 let other = places[(corner + 2) % 3] - places[corner];
@@ -69,10 +69,6 @@ impl TriangleMesh {
             corners: corners.collect(),
             normals,
         }
-    }
-
-    fn places_of(&self, triangle: usize) -> [DVec3; 3] {
-        self.triangles[triangle].map(|vertex| self.positions[vertex as usize].as_dvec3())
     }
 }
 

@@ -1,5 +1,4 @@
 use super::{TriangleMesh, area_vector};
-use glam::Vec3;
 
 impl TriangleMesh {
     /// The mesh with neighbouring triangles going round the same way: models are often put together from
@@ -63,15 +62,14 @@ impl TriangleMesh {
     }
 
     fn area(&self, triangle: usize) -> f64 {
-        let corners = self.triangles[triangle];
-        let corners = corners.map(|vertex| self.positions[vertex as usize]);
-        area_vector(corners.map(Vec3::as_dvec3)).length()
+        area_vector(self.corners_in_space(triangle)).length()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     /// Six squares of two triangles, counter-clockwise from outside; corners are not shared by the squares.
     fn cube() -> TriangleMesh {

@@ -1,7 +1,8 @@
 //! The gradients of a network on the host.
 use crate::named_tensors::NamedTensors;
 use burn::module::{Module, ModuleVisitor, Param};
-use burn::tensor::{Gradients, Tensor};
+use burn::tensor::{Element, Gradients, Tensor};
+use std::collections::BTreeMap;
 
 /// Gradients by the names of the weights.
 pub(crate) struct HostGradients {
@@ -12,13 +13,7 @@ pub(crate) struct HostGradients {
 
 impl HostGradients {
     pub(crate) fn new<M: Module>(network: &M, gradients: &Gradients) -> Self {
-        let mut collector = Collector {
-            gradients,
-            path: Vec::new(),
-            found: NamedTensors::new(),
-        };
-        network.visit(&mut collector);
-        Self::from_values(collector.found)
+        Self::from_values(collect_gradients(network, gradients))
     }
 
     /// The gradients of those weights for which `wanted` holds.
@@ -40,14 +35,27 @@ impl HostGradients {
     }
 }
 
-/// Reads the gradient of every weight to the host.
-struct Collector<'a> {
-    gradients: &'a Gradients,
-    path: Vec<String>,
-    found: NamedTensors,
+/// Reads the gradient of every weight that has one to the host, by the weights' names.
+pub(crate) fn collect_gradients<M: Module, E: Element>(
+    network: &M,
+    gradients: &Gradients,
+) -> BTreeMap<String, Vec<E>> {
+    let mut collector = Collector {
+        gradients,
+        path: Vec::new(),
+        found: BTreeMap::new(),
+    };
+    network.visit(&mut collector);
+    collector.found
 }
 
-impl ModuleVisitor for Collector<'_> {
+struct Collector<'a, E> {
+    gradients: &'a Gradients,
+    path: Vec<String>,
+    found: BTreeMap<String, Vec<E>>,
+}
+
+impl<E: Element> ModuleVisitor for Collector<'_, E> {
     fn enter_module(&mut self, name: &str, _container: &str) {
         self.path.push(name.to_owned());
     }
@@ -64,10 +72,10 @@ impl ModuleVisitor for Collector<'_> {
 }
 
 /// A tensor's values; training tensors are f32 by construction.
-pub(crate) fn host<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
+pub(crate) fn host<E: Element, const D: usize>(tensor: Tensor<D>) -> Vec<E> {
     tensor
         .into_data()
-        .convert::<f32>()
-        .try_to_vec::<f32>()
+        .convert::<E>()
+        .try_to_vec::<E>()
         .unwrap_or_default()
 }

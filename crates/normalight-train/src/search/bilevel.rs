@@ -1,7 +1,8 @@
 //! Gradients of the architecture in the bi-level problem of DARTS (Liu et al. 2019): find the architecture that is best
 //! on validation data with the weights that are best for it on training data.
-use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
-use burn::tensor::{Gradients, Tensor, TensorData};
+use crate::optimiser::collect_gradients;
+use burn::module::{Module, ModuleMapper, Param};
+use burn::tensor::{Tensor, TensorData};
 use std::collections::BTreeMap;
 
 /// Length of the step of the finite difference, as in DARTS.
@@ -26,15 +27,9 @@ pub(super) struct Slope {
 impl Slope {
     pub(super) fn of<M: Module>(network: &M, loss: Tensor<1>) -> Self {
         let gradients = loss.backward();
-        let mut collector = Collector {
-            gradients: &gradients,
-            path: Vec::new(),
-            found: Numbers::new(),
-        };
-        network.visit(&mut collector);
         Self {
             loss: loss.into_data().iter::<f64>().sum(),
-            gradient: collector.found,
+            gradient: collect_gradients(network, &gradients),
         }
     }
 
@@ -107,29 +102,6 @@ fn shifted<M: Module>(network: &M, direction: &Numbers, factor: f64) -> M {
         factor,
         path: Vec::new(),
     })
-}
-
-struct Collector<'a> {
-    gradients: &'a Gradients,
-    path: Vec<String>,
-    found: Numbers,
-}
-
-impl ModuleVisitor for Collector<'_> {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
-    }
-
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        if let Some(gradient) = param.val().grad(self.gradients) {
-            let values = gradient.into_data().iter::<f64>().collect();
-            self.found.insert(self.path.join("."), values);
-        }
-    }
 }
 
 struct Shifter<'a> {

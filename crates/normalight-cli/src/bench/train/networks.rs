@@ -50,10 +50,8 @@ pub(super) fn all() -> Result<Vec<Candidate>> {
         .context("no published normal cells")?;
     let plain = |widths, pixel_branch| {
         NormalBody::Plain(PlainNormal {
-            widths,
-            head: 32,
-            residuals: 0,
             pixel_branch,
+            ..PlainNormal::new(widths, 32)
         })
     };
     let cells = |width| {

@@ -53,12 +53,8 @@ pub(super) fn plain(recipe: &TrainRecipe, width: usize) -> TrainRecipe {
             }
         }
         Network::Normal => {
-            recipe.normal.architecture.body = NormalBody::Plain(PlainNormal {
-                widths,
-                head: 2 * width,
-                residuals: 0,
-                pixel_branch: 0,
-            });
+            let plain = PlainNormal::new(widths, 2 * width);
+            recipe.normal.architecture.body = NormalBody::Plain(plain);
         }
     }
     recipe
