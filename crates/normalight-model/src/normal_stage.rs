@@ -3,10 +3,13 @@ use crate::observer::{Observer, Stage, report};
 use crate::{FusedFeatures, ModelError, NormalArchitecture, NormalNetwork};
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{ImageStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
-use std::ops::Range;
 
 /// Images that go through the network together: bounds the memory, whatever the size of the stack.
 const BATCH: usize = 8;
+
+/// Images, about, whose features meet in one maximum. Trainings show a network at most some twenty images a
+/// sample; the maximum over a hundred lies beyond what it has seen, and one odd image decides it.
+const GROUP: usize = 24;
 
 /// Side of the part of a tile that is kept; objects up to this size need one tile.
 const TILE: usize = 256;
@@ -23,7 +26,8 @@ const DARK: f32 = 1e-6;
 /// Each image is divided by its light's intensity, then each pixel and channel by its root mean
 /// square over the images (a first pass), which takes the albedo away. The network looks at the
 /// photographs in each of the `views` (one at least), and the normals, turned back, are averaged: what it errs
-/// differently in each view goes. One view costs as much as the next.
+/// differently in each view goes. One view costs as much as the next. More than 35 images are dealt into groups of
+/// about 24, each with normals of its own, which are averaged as well.
 ///
 /// # Errors
 /// [`ModelError::Cancelled`], [`ModelError::Device`] or [`ModelError::Core`].
@@ -53,31 +57,34 @@ pub async fn estimate_normals(
     let (width, height) = (stack.width(), stack.height());
     let mut normals = vec![Vec3::ZERO; width * height];
     let tiles = tiles(mask);
+    let groups = groups(stack.len());
     let steps = (tiles.len() * views.len() * stack.len()) as f32;
     let mut done = 0;
     for &kept in &tiles {
         let tile = Tile::new(stack, mask, lights, kept);
         for &symmetry in views {
             let view = TileView::new(&tile, symmetry);
-            let mut fused: Option<FusedFeatures> = None;
-            for first in (0..stack.len()).step_by(BATCH) {
-                report(observer, stage, done as f32 / steps).await?;
-                let images = first..stack.len().min(first + BATCH);
-                done += images.len();
-                let input = view.batch(stack, lights, images, architecture.mask_channel, device);
-                let more = network.fuse(input, 1);
-                fused = Some(match fused {
-                    Some(before) => before.and(more),
-                    None => more,
-                });
-            }
-            if let Some(fused) = fused {
-                let values = read_back(network.regress(fused)).await?;
-                view.add(&values, kept, mask, &mut normals);
+            for group in &groups {
+                let mut fused: Option<FusedFeatures> = None;
+                for images in group.chunks(BATCH) {
+                    report(observer, stage, done as f32 / steps).await?;
+                    done += images.len();
+                    let input =
+                        view.batch(stack, lights, images, architecture.mask_channel, device);
+                    let more = network.fuse(input, 1);
+                    fused = Some(match fused {
+                        Some(before) => before.and(more),
+                        None => more,
+                    });
+                }
+                if let Some(fused) = fused {
+                    let values = read_back(network.regress(fused)).await?;
+                    view.add(&values, kept, mask, &mut normals);
+                }
             }
         }
     }
-    if views.len() > 1 {
+    if views.len() * groups.len() > 1 {
         for (normal, &inside) in normals.iter_mut().zip(mask.inside()) {
             if inside {
                 *normal = normal.normalize_or(Vec3::Z);
@@ -86,6 +93,26 @@ pub async fn estimate_normals(
     }
     report(observer, stage, 1.0).await?;
     Ok(NormalMap::new(width, height, normals))
+}
+
+/// Deals images into groups of about [`GROUP`], each with lights from all sides. Lamps often go round or along rows,
+/// so dealing one after the other could give a group the left column of lights only; steps of the golden ratio
+/// spread every period over all groups.
+fn groups(images: usize) -> Vec<Vec<usize>> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let count = ((images + GROUP / 2) / GROUP).max(1);
+    let mut order: Vec<usize> = (0..images).collect();
+    order.sort_by(|&a, &b| {
+        let place = |image: usize| (image as f64 * GOLDEN).fract();
+        place(a).total_cmp(&place(b))
+    });
+    (0..count)
+        .map(|group| {
+            let mut group = order[group * images / count..(group + 1) * images / count].to_vec();
+            group.sort_unstable();
+            group
+        })
+        .collect()
 }
 
 /// Rectangles that cover the object's bounding box, those without object left out.
@@ -199,7 +226,7 @@ impl<'a> TileView<'a> {
         &self,
         stack: &ImageStack,
         lights: &[Light],
-        images: Range<usize>,
+        images: &[usize],
         mask_channel: bool,
         device: &Device,
     ) -> Tensor<4> {
@@ -213,7 +240,7 @@ impl<'a> TileView<'a> {
         let mut values = vec![0.0; count * channels * self.width * self.height];
         let mut plain = vec![0.0; 3 * rect.area()];
         let outs = values.chunks_exact_mut(channels * self.width * self.height);
-        for (image, out) in images.zip(outs) {
+        for (&image, out) in images.iter().zip(outs) {
             stack.linear_tile(image, *rect, &mut plain);
             let light = &lights[image];
             let direction = self.symmetry.vector(light.direction).to_array();
@@ -257,6 +284,28 @@ impl<'a> TileView<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn groups_hold_every_image_once() {
+        for images in 1..200 {
+            let groups = groups(images);
+            let mut dealt = groups.concat();
+            dealt.sort_unstable();
+            assert_eq!(dealt, (0..images).collect::<Vec<_>>());
+            for group in &groups {
+                assert!(
+                    group.len() <= 36,
+                    "{images} images: group of {}",
+                    group.len()
+                );
+                assert!(
+                    images < 36 || group.len() >= 18,
+                    "{images}: {}",
+                    group.len()
+                );
+            }
+        }
+    }
 
     #[test]
     fn tiles_cover_the_object_once() {

@@ -242,6 +242,23 @@ fn one_view_is_the_bare_network() {
     }
 }
 
+#[test]
+fn copies_of_the_photographs_change_nothing() {
+    let scene = Scene::new(24, 16, |x, y| x + y < 5);
+    // Twice as many as meet in one maximum, so that there are two groups, in each of which every image is.
+    let copies = Scene {
+        images: vec![scene.images.clone(); 16].concat(),
+        lights: vec![scene.lights.clone(); 16].concat(),
+        ..scene.clone()
+    };
+    let untrained = Untrained::new();
+    let [few, many] = [&scene, &copies].map(|scene| {
+        let views = Quality::Default.views();
+        untrained.normals(scene, views, &mut Quiet).unwrap()
+    });
+    assert!(furthest(&few, &many) < 1e-4, "{}", furthest(&few, &many));
+}
+
 /// Notes how far a run is, and stops it after some reports.
 struct Patient {
     fractions: Vec<f32>,
