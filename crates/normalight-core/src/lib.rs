@@ -6,6 +6,7 @@
 
 mod angles;
 mod bins;
+mod calibrated;
 mod error;
 mod light;
 mod mask;
@@ -22,6 +23,7 @@ mod woodham;
 
 pub use angles::{angle_between, direction_from_angles, direction_to_angles};
 pub use bins::{Decoding, IntensityBins, IntensitySpacing, LightBins, LightClasses};
+pub use calibrated::CalibratedStack;
 pub use error::CoreError;
 pub use glam::Vec3;
 pub use light::Light;

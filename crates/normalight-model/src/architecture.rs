@@ -1,4 +1,4 @@
-use crate::{LightGenotype, ModelError, NormalGenotype};
+use crate::{LightGenotype, ModelError, NormalGenotype, NormalInput};
 use normalight_core::LightBins;
 use serde::{Deserialize, Serialize};
 
@@ -230,7 +230,7 @@ impl NormalArchitecture {
 
     /// Number of input channels: image, light direction, perhaps the mask.
     pub fn input_channels(&self) -> usize {
-        6 + usize::from(self.mask_channel)
+        NormalInput::channels(self.mask_channel)
     }
 
     /// Checks ranges and cells.

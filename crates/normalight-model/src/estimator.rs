@@ -1,21 +1,19 @@
 use crate::observer::{Observer, Stage, report};
 use crate::{
-    LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork, Quality,
-    Weights, estimate_lights, estimate_normals, light_cost, normal_cost,
+    LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Quality, Weights,
+    light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
-    Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, Symmetry, albedo_map, refit_lights,
+    CalibratedStack, Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, albedo_map,
+    refit_lights,
 };
 
 /// Both networks on a device, ready to go from photographs to lights and normals.
 #[derive(Debug)]
 pub struct Estimator {
-    light_architecture: LightArchitecture,
-    light: LightNetwork,
-    normal_architecture: NormalArchitecture,
-    normal: NormalNetwork,
-    device: Device,
+    light: LoadedLightNetwork,
+    normal: LoadedNormalNetwork,
     hashes: [String; 2],
 }
 
@@ -58,14 +56,9 @@ impl Estimator {
     /// # Errors
     /// [`ModelError::WrongNetwork`] or [`ModelError::Tensor`].
     pub fn new(light: &Weights, normal: &Weights, device: Device) -> Result<Self, ModelError> {
-        let (light_architecture, light_network) = light.light_network(&device)?;
-        let (normal_architecture, normal_network) = normal.normal_network(&device)?;
         Ok(Self {
-            light_architecture,
-            light: light_network,
-            normal_architecture,
-            normal: normal_network,
-            device,
+            light: light.light_network(&device)?,
+            normal: normal.normal_network(&device)?,
             hashes: [light.hash().to_owned(), normal.hash().to_owned()],
         })
     }
@@ -73,8 +66,8 @@ impl Estimator {
     /// Number of trainable parameters of the light and of the normal network.
     pub fn parameters(&self) -> [usize; 2] {
         [
-            light_cost(&self.light_architecture).parameters,
-            normal_cost(&self.normal_architecture, 0).parameters,
+            light_cost(&self.light.architecture).parameters,
+            normal_cost(&self.normal.architecture, 0).parameters,
         ]
     }
 
@@ -100,32 +93,30 @@ impl Estimator {
         let mut lights = match given {
             Some(lights) => lights.to_vec(),
             None => {
-                estimate_lights(
-                    &self.light_architecture,
-                    &self.light,
-                    stack,
-                    mask,
-                    settings.decoding,
-                    settings.quality,
-                    &self.device,
-                    observer,
-                )
-                .await?
+                let options = LightOptions {
+                    decoding: settings.decoding,
+                    quality: settings.quality,
+                };
+                self.light.estimate(stack, mask, options, observer).await?
             }
         };
         let mut stage = Stage::Normals;
         if let (Some(refit), None) = (settings.refit, given) {
             let views = settings.quality.refit_views();
+            let calibrated = CalibratedStack::new(stack, mask, &lights)?;
             let normals = self
-                .normals(stack, mask, &lights, views, stage, observer)
+                .normal
+                .estimate(calibrated, views, stage, observer)
                 .await?;
             report(observer, Stage::Refit, 0.0).await?;
             lights = refit_lights(stack, mask, &normals, &lights, refit)?;
             stage = Stage::FinalNormals;
         }
         let views = settings.quality.views();
+        let calibrated = CalibratedStack::new(stack, mask, &lights)?;
         let normals = self
-            .normals(stack, mask, &lights, views, stage, observer)
+            .normal
+            .estimate(calibrated, views, stage, observer)
             .await?;
         report(observer, Stage::Albedo, 0.0).await?;
         let albedo = albedo_map(stack, mask, &normals, &lights)?;
@@ -134,28 +125,5 @@ impl Estimator {
             normals,
             albedo,
         })
-    }
-
-    async fn normals(
-        &self,
-        stack: &ImageStack,
-        mask: &Mask,
-        lights: &[Light],
-        views: &[Symmetry],
-        stage: Stage,
-        observer: &mut impl Observer,
-    ) -> Result<NormalMap, ModelError> {
-        estimate_normals(
-            &self.normal_architecture,
-            &self.normal,
-            stack,
-            mask,
-            lights,
-            views,
-            &self.device,
-            stage,
-            observer,
-        )
-        .await
     }
 }

@@ -1,75 +1,79 @@
 use crate::observer::{Observer, Stage, report};
-use crate::{LightArchitecture, LightNetwork, LightView, ModelError, Quality};
-use burn::tensor::{Device, Tensor, TensorData, activation};
-use normalight_core::{Decoding, ImageStack, Light, LightBins, Mask};
+use crate::{LightInput, LightView, LoadedLightNetwork, ModelError, Quality};
+use burn::tensor::{Tensor, TensorData, activation};
+use normalight_core::{Decoding, ImageStack, Light, Mask};
 use std::ops::Range;
 
 /// Images that go through the network together: bounds the memory, whatever the size of the stack.
 const BATCH: usize = 16;
 
-/// Estimates the light of every image: one pass for the maximum of the features over the images,
-/// one to classify each image against it.
-///
-/// A `quality` that averages does all of this for the mirrored photographs too and takes the mean of
-/// the class probabilities. With soft-argmax that is the mean of the angles, and views that
-/// disagree spread the probabilities, which lowers the confidence.
-///
-/// Intensities come back relative to their mean.
-///
-/// # Errors
-/// [`ModelError::Cancelled`] or [`ModelError::Device`].
-#[expect(
-    clippy::too_many_arguments,
-    reason = "one call site per stage, all needed"
-)]
-pub async fn estimate_lights(
-    architecture: &LightArchitecture,
-    network: &LightNetwork,
-    stack: &ImageStack,
-    mask: &Mask,
-    decoding: Decoding,
-    quality: Quality,
-    device: &Device,
-    observer: &mut impl Observer,
-) -> Result<Vec<Light>, ModelError> {
-    let bins = &architecture.bins;
-    let views: &[bool] = if quality.mirrors_lights() {
-        &[false, true]
-    } else {
-        &[false]
-    };
-    let mut look = Look {
-        view: LightView::new(stack, mask, architecture.input_size),
-        stack,
-        mirrored: false,
-        device,
-        done: 0,
-        steps: 2 * stack.len() * views.len(),
-    };
-    let mut probabilities = vec![0.0; stack.len() * bins.classes()];
-    for &mirrored in views {
-        look.mirrored = mirrored;
-        let found = look.probabilities(network, bins, observer).await?;
-        for (sum, value) in probabilities.iter_mut().zip(found) {
-            *sum += value / views.len() as f32;
+/// How lights are estimated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightOptions {
+    /// How classes become numbers.
+    pub decoding: Decoding,
+    /// Whether mirrored photographs are looked at, too.
+    pub quality: Quality,
+}
+
+impl LoadedLightNetwork {
+    /// Estimates the light of every image: one pass for the maximum of the features over the images,
+    /// one to classify each image against it.
+    ///
+    /// A quality that averages does all of this for the mirrored photographs too and takes the mean of
+    /// the class probabilities. With soft-argmax that is the mean of the angles, and views that
+    /// disagree spread the probabilities, which lowers the confidence.
+    ///
+    /// Intensities come back relative to their mean.
+    ///
+    /// # Errors
+    /// [`ModelError::Cancelled`] or [`ModelError::Device`].
+    pub async fn estimate(
+        &self,
+        stack: &ImageStack,
+        mask: &Mask,
+        options: LightOptions,
+        observer: &mut impl Observer,
+    ) -> Result<Vec<Light>, ModelError> {
+        let bins = &self.architecture.bins;
+        let views: &[bool] = if options.quality.mirrors_lights() {
+            &[false, true]
+        } else {
+            &[false]
+        };
+        let mut look = Look {
+            loaded: self,
+            view: LightView::new(stack, mask, self.architecture.input_size),
+            stack,
+            mirrored: false,
+            done: 0,
+            steps: 2 * stack.len() * views.len(),
+        };
+        let mut probabilities = vec![0.0; stack.len() * bins.classes()];
+        for &mirrored in views {
+            look.mirrored = mirrored;
+            let found = look.probabilities(observer).await?;
+            for (sum, value) in probabilities.iter_mut().zip(found) {
+                *sum += value / views.len() as f32;
+            }
         }
+        report(observer, Stage::Lights, 1.0).await?;
+        let lights = probabilities.chunks_exact(bins.classes()).map(|row| {
+            let (azimuth, rest) = row.split_at(bins.azimuth);
+            let (elevation, intensity) = rest.split_at(bins.elevation);
+            bins.decode(azimuth, elevation, intensity, options.decoding)
+        });
+        Ok(relative(lights.collect()))
     }
-    report(observer, Stage::Lights, 1.0).await?;
-    let lights = probabilities.chunks_exact(bins.classes()).map(|row| {
-        let (azimuth, rest) = row.split_at(bins.azimuth);
-        let (elevation, intensity) = rest.split_at(bins.elevation);
-        bins.decode(azimuth, elevation, intensity, decoding)
-    });
-    Ok(relative(lights.collect()))
 }
 
 /// One look of the network at all photographs.
 struct Look<'a> {
+    loaded: &'a LoadedLightNetwork,
     view: LightView,
     stack: &'a ImageStack,
     /// Left and right exchanged.
     mirrored: bool,
-    device: &'a Device,
     /// Images that have passed the network, and how many will have in the end.
     done: usize,
     steps: usize,
@@ -82,10 +86,14 @@ impl Look<'_> {
     /// `[images, classes]`: azimuth, elevation, intensity side by side.
     async fn probabilities(
         &mut self,
-        network: &LightNetwork,
-        bins: &LightBins,
         observer: &mut impl Observer,
     ) -> Result<Vec<f32>, ModelError> {
+        let LoadedLightNetwork {
+            architecture,
+            network,
+            ..
+        } = self.loaded;
+        let bins = &architecture.bins;
         let count = self.stack.len();
         let mut fused: Option<Tensor<4>> = None;
         for first in (0..count).step_by(BATCH) {
@@ -140,25 +148,14 @@ impl Look<'_> {
         report(observer, Stage::Lights, fraction).await?;
         self.done += images.len();
         let size = self.view.size();
-        let area = size * size;
-        let mut planes = vec![0.0; 4 * area];
-        let mut values = vec![0.0; images.len() * 4 * area];
-        let shape = [images.len(), size, size, 4];
-        for (out, image) in values.chunks_exact_mut(4 * area).zip(images) {
-            self.view.image(self.stack, image, &mut planes);
-            if self.mirrored {
-                planes.chunks_exact_mut(size).for_each(<[f32]>::reverse);
-            }
-            for (channel, plane) in planes.chunks_exact(area).enumerate() {
-                for (pixel, value) in out.chunks_exact_mut(4).zip(plane) {
-                    pixel[channel] = *value;
-                }
-            }
+        let shape = [images.len(), size, size, LightInput::CHANNELS];
+        let mut values = vec![0.0; shape.iter().product()];
+        let outs = values.chunks_exact_mut(size * size * LightInput::CHANNELS);
+        for (out, image) in outs.zip(images) {
+            self.view.image(self.stack, image, self.mirrored, out);
         }
-        Ok(Tensor::from_data(
-            TensorData::new(values, shape),
-            self.device,
-        ))
+        let data = TensorData::new(values, shape);
+        Ok(Tensor::from_data(data, &self.loaded.device))
     }
 }
 

@@ -1,13 +1,11 @@
+use crate::LightInput;
 use normalight_core::{ImageStack, Mask, Rect};
 
 /// Margin around the object in its square view, as a share of the view's side.
 const MARGIN: f32 = 0.04;
 
 /// The small square view of the masked object that the light network looks at: the object's
-/// bounding box, centred, its aspect kept, area-averaged.
-///
-/// Values are divided by the stack's mean over object pixels, images and channels, so that only
-/// the lights' relative brightness is left.
+/// bounding box, centred, its aspect kept, area-averaged; encoded as [`LightInput`] says.
 #[derive(Debug, Clone)]
 pub struct LightView {
     size: usize,
@@ -18,7 +16,9 @@ pub struct LightView {
     inside: Vec<f32>,
     /// Share of each view pixel that the object covers, `[size, size]`.
     coverage: Vec<f32>,
-    scale: f32,
+    /// Whether a view pixel counts as the object's, `[size, size]`.
+    covered: Vec<bool>,
+    input: LightInput,
 }
 
 /// Source pixels that one view pixel covers: first index and weights.
@@ -58,10 +58,12 @@ impl LightView {
             rows,
             inside,
             coverage: Vec::new(),
-            scale: 1.0,
+            covered: Vec::new(),
+            input: LightInput::new(0.0),
         };
-        view.coverage = view.averaged(&view.inside.clone());
-        view.scale = 1.0 / view.mean(stack).max(1e-12);
+        view.coverage = view.averaged(&view.inside);
+        view.covered = view.coverage.iter().map(|&share| share >= 0.5).collect();
+        view.input = LightInput::new(view.mean(stack));
         view
     }
 
@@ -70,37 +72,34 @@ impl LightView {
         self.size
     }
 
-    /// One image and the mask.
+    /// One image, perhaps with left and right exchanged.
     ///
     /// # Shapes
-    /// `out`: `[4, size, size]`: linear RGB relative to the stack's mean, zero outside the object,
-    /// and the mask (1 inside).
-    pub fn image(&self, stack: &ImageStack, image: usize, out: &mut [f32]) {
+    /// `out`: `[size, size, 4]`, as [`LightInput`] writes it
+    pub fn image(&self, stack: &ImageStack, image: usize, mirrored: bool, out: &mut [f32]) {
         let area = self.rect.area();
         let mut tile = vec![0.0; 3 * area];
         stack.linear_tile(image, self.rect, &mut tile);
-        let (colours, mask) = out.split_at_mut(3 * self.size * self.size);
-        for (plane, view) in tile
-            .chunks_exact_mut(area)
-            .zip(colours.chunks_exact_mut(self.size * self.size))
-        {
+        let mut planes = Vec::with_capacity(3 * self.size * self.size);
+        for plane in tile.chunks_exact_mut(area) {
             for (value, &inside) in plane.iter_mut().zip(&self.inside) {
                 *value *= inside;
             }
-            for ((out, value), &coverage) in view
-                .iter_mut()
-                .zip(self.averaged(plane))
-                .zip(&self.coverage)
-            {
-                *out = if coverage >= 0.5 {
-                    value / coverage * self.scale
-                } else {
-                    0.0
-                };
-            }
+            let averaged = self.averaged(plane);
+            let pixels = averaged.iter().zip(&self.coverage);
+            planes.extend(pixels.map(|(value, coverage)| value / coverage));
         }
-        for (out, &coverage) in mask.iter_mut().zip(&self.coverage) {
-            *out = f32::from(u8::from(coverage >= 0.5));
+        if mirrored {
+            let mut covered = self.covered.clone();
+            planes
+                .chunks_exact_mut(self.size)
+                .for_each(<[f32]>::reverse);
+            covered
+                .chunks_exact_mut(self.size)
+                .for_each(<[bool]>::reverse);
+            self.input.encode(&planes, &covered, out);
+        } else {
+            self.input.encode(&planes, &self.covered, out);
         }
     }
 
@@ -185,16 +184,16 @@ mod tests {
             let mask = Mask::whole(width, height);
             let view = LightView::new(&stack, &mask, 32);
             let mut out = vec![0.0; 4 * 32 * 32];
-            view.image(&stack, 2, &mut out);
-            let covered: f32 = out[3 * 1024..].iter().sum();
+            view.image(&stack, 2, false, &mut out);
+            let covered: f32 = out.chunks_exact(4).map(|pixel| pixel[3]).sum();
             let aspect = width.min(height) as f32 / width.max(height) as f32;
             let expected = (32.0 * (1.0 - 2.0 * MARGIN)).powi(2) * aspect;
             assert!(
                 (covered / expected - 1.0).abs() < 0.25,
                 "{covered} {expected}"
             );
-            for (value, inside) in out[..1024].iter().zip(&out[3 * 1024..]) {
-                assert!((value - 1.5 * inside).abs() < 1e-4);
+            for pixel in out.chunks_exact(4) {
+                assert!((pixel[0] - 1.5 * pixel[3]).abs() < 1e-4);
             }
         }
     }

@@ -1,8 +1,8 @@
 use crate::light_stage::read_back;
 use crate::observer::{Observer, Stage, report};
-use crate::{FusedFeatures, ModelError, NormalArchitecture, NormalNetwork};
+use crate::{FusedFeatures, LoadedNormalNetwork, ModelError, NormalInput, NormalNetwork};
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{ImageStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
+use normalight_core::{CalibratedStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
 
 /// Images that go through the network together: bounds the memory, whatever the size of the stack.
 const BATCH: usize = 8;
@@ -18,81 +18,61 @@ const TILE: usize = 256;
 /// of about 30 pixels, so that tiles leave no seam.
 const OVERLAP: usize = 32;
 
-/// Light below this, relative to full scale, counts as none when pixels are normalised.
-const DARK: f32 = 1e-6;
-
-/// Estimates the normals of a stack under known lights, tile by tile.
-///
-/// Each image is divided by its light's intensity, then each pixel and channel by its root mean
-/// square over the images (a first pass), which takes the albedo away. The network looks at the
-/// photographs in each of the `views` (one at least), and the normals, turned back, are averaged: what it errs
-/// differently in each view goes. One view costs as much as the next. More than 35 images are dealt into groups of
-/// about 24, each with normals of its own, which are averaged as well.
-///
-/// # Errors
-/// [`ModelError::Cancelled`], [`ModelError::Device`] or [`ModelError::Core`].
-#[expect(
-    clippy::too_many_arguments,
-    reason = "one call site per stage, all needed"
-)]
-pub async fn estimate_normals(
-    architecture: &NormalArchitecture,
-    network: &NormalNetwork,
-    stack: &ImageStack,
-    mask: &Mask,
-    lights: &[Light],
-    views: &[Symmetry],
-    device: &Device,
-    stage: Stage,
-    observer: &mut impl Observer,
-) -> Result<NormalMap, ModelError> {
-    stack.check_mask(mask, "mask")?;
-    if lights.len() != stack.len() {
-        return Err(normalight_core::CoreError::LightCount {
-            found: lights.len(),
-            expected: stack.len(),
-        }
-        .into());
-    }
-    let (width, height) = (stack.width(), stack.height());
-    let mut normals = vec![Vec3::ZERO; width * height];
-    let tiles = tiles(mask);
-    let groups = groups(stack.len());
-    let steps = (tiles.len() * views.len() * stack.len()) as f32;
-    let mut done = 0;
-    for &kept in &tiles {
-        let tile = Tile::new(stack, mask, lights, kept);
-        for &symmetry in views {
-            let view = TileView::new(&tile, symmetry);
-            for group in &groups {
-                let mut fused: Option<FusedFeatures> = None;
-                for images in group.chunks(BATCH) {
-                    report(observer, stage, done as f32 / steps).await?;
-                    done += images.len();
-                    let input =
-                        view.batch(stack, lights, images, architecture.mask_channel, device);
-                    let more = network.fuse(input, 1);
-                    fused = Some(match fused {
-                        Some(before) => before.and(more),
-                        None => more,
-                    });
-                }
-                if let Some(fused) = fused {
-                    let values = read_back(network.regress(fused)).await?;
-                    view.add(&values, kept, mask, &mut normals);
+impl LoadedNormalNetwork {
+    /// Estimates the normals of a stack under known lights, tile by tile, as [`NormalInput`] encodes it.
+    ///
+    /// The network looks at the photographs in each of the `views` (one at least), and the normals, turned back, are
+    /// averaged: what it errs differently in each view goes. One view costs as much as the next. More than 35 images are
+    /// dealt into groups of about 24, each with normals of its own, which are averaged as well.
+    ///
+    /// # Errors
+    /// [`ModelError::Cancelled`] or [`ModelError::Device`].
+    pub async fn estimate(
+        &self,
+        calibrated: CalibratedStack<'_>,
+        views: &[Symmetry],
+        stage: Stage,
+        observer: &mut impl Observer,
+    ) -> Result<NormalMap, ModelError> {
+        let (stack, mask) = (calibrated.stack(), calibrated.mask());
+        let (width, height) = (stack.width(), stack.height());
+        let mut normals = vec![Vec3::ZERO; width * height];
+        let tiles = tiles(mask);
+        let groups = groups(stack.len());
+        let steps = (tiles.len() * views.len() * stack.len()) as f32;
+        let mut done = 0;
+        for &kept in &tiles {
+            let tile = Tile::new(calibrated, kept, self.architecture.mask_channel);
+            for &symmetry in views {
+                let view = TileView::new(&tile, symmetry);
+                for group in &groups {
+                    let mut fused: Option<FusedFeatures> = None;
+                    for images in group.chunks(BATCH) {
+                        report(observer, stage, done as f32 / steps).await?;
+                        done += images.len();
+                        let more = self.network.fuse(view.batch(images, &self.device), 1);
+                        fused = Some(match fused {
+                            Some(before) => before.and(more),
+                            None => more,
+                        });
+                    }
+                    if let Some(fused) = fused {
+                        let values = read_back(self.network.regress(fused)).await?;
+                        view.add(&values, &mut normals);
+                    }
                 }
             }
         }
-    }
-    if views.len() * groups.len() > 1 {
-        for (normal, &inside) in normals.iter_mut().zip(mask.inside()) {
-            if inside {
-                *normal = normal.normalize_or(Vec3::Z);
+        if views.len() * groups.len() > 1 {
+            for (normal, &inside) in normals.iter_mut().zip(mask.inside()) {
+                if inside {
+                    *normal = normal.normalize_or(Vec3::Z);
+                }
             }
         }
+        report(observer, stage, 1.0).await?;
+        Ok(NormalMap::new(width, height, normals))
     }
-    report(observer, stage, 1.0).await?;
-    Ok(NormalMap::new(width, height, normals))
 }
 
 /// Deals images into groups of about [`GROUP`], each with lights from all sides. Lamps often go round or along rows,
@@ -142,48 +122,31 @@ fn tiles(mask: &Mask) -> Vec<Rect> {
 }
 
 /// A rectangle of the stack, and what is the same in all its views.
-struct Tile {
+struct Tile<'a> {
+    calibrated: CalibratedStack<'a>,
+    /// The part that is kept of the normals.
+    kept: Rect,
+    /// The part that the network sees.
     rect: Rect,
-    inside: Vec<bool>,
-    /// Reciprocal of the root mean square over the images, `[3, rect.height, rect.width]`; zero
-    /// outside the object.
-    scale: Vec<f32>,
+    input: NormalInput,
+    channels: usize,
 }
 
-impl Tile {
-    fn new(stack: &ImageStack, mask: &Mask, lights: &[Light], kept: Rect) -> Self {
+impl<'a> Tile<'a> {
+    fn new(calibrated: CalibratedStack<'a>, kept: Rect, mask_channel: bool) -> Self {
+        let (stack, mask) = (calibrated.stack(), calibrated.mask());
         let rect = kept.grown(OVERLAP, stack.width(), stack.height());
-        let inside: Vec<bool> = (0..rect.area())
-            .map(|index| {
-                let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
-                mask.inside()[y * mask.width() + x]
-            })
-            .collect();
-        let mut scale = vec![0.0; 3 * rect.area()];
-        let mut values = vec![0.0; 3 * rect.area()];
-        for (image, light) in lights.iter().enumerate() {
-            stack.linear_tile(image, rect, &mut values);
-            for (channel, (sums, plane)) in scale
-                .chunks_exact_mut(rect.area())
-                .zip(values.chunks_exact(rect.area()))
-                .enumerate()
-            {
-                let factor = 1.0 / light.intensity[channel].max(f32::MIN_POSITIVE);
-                for (sum, value) in sums.iter_mut().zip(plane) {
-                    *sum += (value * factor).powi(2);
-                }
-            }
-        }
-        for plane in scale.chunks_exact_mut(rect.area()) {
-            for (sum, &inside) in plane.iter_mut().zip(&inside) {
-                let rms = (*sum / lights.len() as f32).sqrt();
-                *sum = if inside && rms > DARK { 1.0 / rms } else { 0.0 };
-            }
-        }
+        let inside = (0..rect.area()).map(|index| {
+            let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
+            mask.inside()[y * mask.width() + x]
+        });
+        let read = |image: usize, planes: &mut [f32]| stack.linear_tile(image, rect, planes);
         Self {
+            calibrated,
+            kept,
             rect,
-            inside,
-            scale,
+            input: NormalInput::new(mask_channel, inside.collect(), calibrated.lights(), read),
+            channels: NormalInput::channels(mask_channel),
         }
     }
 }
@@ -192,7 +155,7 @@ impl Tile {
 /// [`NormalNetwork::ALIGNMENT`]. The padding comes last, so that the network sees the same, at the
 /// same place, as in a stack of turned photographs.
 struct TileView<'a> {
-    tile: &'a Tile,
+    tile: &'a Tile<'a>,
     symmetry: Symmetry,
     width: usize,
     height: usize,
@@ -221,54 +184,35 @@ impl<'a> TileView<'a> {
     }
 
     /// # Shapes
-    /// `[images, height, width, 6 or 7]`
-    fn batch(
-        &self,
-        stack: &ImageStack,
-        lights: &[Light],
-        images: &[usize],
-        mask_channel: bool,
-        device: &Device,
-    ) -> Tensor<4> {
+    /// `[images, height, width, channels]`
+    fn batch(&self, images: &[usize], device: &Device) -> Tensor<4> {
         let Tile {
+            calibrated,
             rect,
-            inside,
-            scale,
+            input,
+            channels,
+            ..
         } = self.tile;
-        let count = images.len();
-        let channels = 6 + usize::from(mask_channel);
-        let mut values = vec![0.0; count * channels * self.width * self.height];
-        let mut plain = vec![0.0; 3 * rect.area()];
+        let shape = [images.len(), self.height, self.width, *channels];
+        let mut values = vec![0.0; shape.iter().product()];
+        let mut planes = vec![0.0; 3 * rect.area()];
         let outs = values.chunks_exact_mut(channels * self.width * self.height);
         for (&image, out) in images.iter().zip(outs) {
-            stack.linear_tile(image, *rect, &mut plain);
-            let light = &lights[image];
-            let direction = self.symmetry.vector(light.direction).to_array();
-            for pixel in out.chunks_exact_mut(channels) {
-                pixel[3..6].copy_from_slice(&direction);
-            }
-            let planes = plain
-                .chunks_exact(rect.area())
-                .zip(scale.chunks_exact(rect.area()));
-            for (channel, (plane, scale)) in planes.enumerate() {
-                let factor = 1.0 / light.intensity[channel].max(f32::MIN_POSITIVE);
-                for (&place, (value, scale)) in self.places.iter().zip(plane.iter().zip(scale)) {
-                    out[place * channels + channel] = value * factor * scale;
-                }
-            }
-            if mask_channel {
-                for (&place, &inside) in self.places.iter().zip(inside) {
-                    out[place * channels + 6] = f32::from(u8::from(inside));
-                }
-            }
+            calibrated.stack().linear_tile(image, *rect, &mut planes);
+            let light = calibrated.lights()[image];
+            let turned = Light {
+                direction: self.symmetry.vector(light.direction),
+                ..light
+            };
+            input.encode(&planes, &turned, |pixel| self.places[pixel], out);
         }
-        let shape = [count, self.height, self.width, channels];
         Tensor::from_data(TensorData::new(values, shape), device)
     }
 
     /// Turns the network's output back and adds the kept part of it to the whole map.
-    fn add(&self, values: &[f32], kept: Rect, mask: &Mask, normals: &mut [Vec3]) {
-        let (back, rect) = (self.symmetry.inverse(), self.tile.rect);
+    fn add(&self, values: &[f32], normals: &mut [Vec3]) {
+        let (back, mask) = (self.symmetry.inverse(), self.tile.calibrated.mask());
+        let Tile { kept, rect, .. } = self.tile;
         for y in kept.y..kept.y + kept.height {
             for x in kept.x..kept.x + kept.width {
                 let target = y * mask.width() + x;

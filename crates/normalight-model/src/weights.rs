@@ -1,6 +1,7 @@
 use crate::header::sorted;
 use crate::{
-    Architecture, LightArchitecture, LightNetwork, ModelError, NormalArchitecture, NormalNetwork,
+    Architecture, LightArchitecture, LightNetwork, LoadedLightNetwork, LoadedNetwork,
+    LoadedNormalNetwork, ModelError, NormalArchitecture, NormalNetwork,
 };
 use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
 use burn::tensor::{Device, Tensor, TensorData};
@@ -103,30 +104,32 @@ impl Weights {
     ///
     /// # Errors
     /// [`ModelError::WrongNetwork`] or [`ModelError::Tensor`].
-    pub fn light_network(
-        &self,
-        device: &Device,
-    ) -> Result<(LightArchitecture, LightNetwork), ModelError> {
+    pub fn light_network(&self, device: &Device) -> Result<LoadedLightNetwork, ModelError> {
         let Architecture::Light(architecture) = &self.architecture else {
             return Err(self.wrong_network("normal", "light"));
         };
         let network = LightNetwork::new(architecture, true, device)?;
-        Ok((architecture.clone(), self.load(network, device)?))
+        Ok(LoadedNetwork {
+            architecture: architecture.clone(),
+            network: self.load(network, device)?,
+            device: device.clone(),
+        })
     }
 
     /// Builds the normal network on a device.
     ///
     /// # Errors
     /// [`ModelError::WrongNetwork`] or [`ModelError::Tensor`].
-    pub fn normal_network(
-        &self,
-        device: &Device,
-    ) -> Result<(NormalArchitecture, NormalNetwork), ModelError> {
+    pub fn normal_network(&self, device: &Device) -> Result<LoadedNormalNetwork, ModelError> {
         let Architecture::Normal(architecture) = &self.architecture else {
             return Err(self.wrong_network("light", "normal"));
         };
         let network = NormalNetwork::new(architecture, true, device)?;
-        Ok((architecture.clone(), self.load(network, device)?))
+        Ok(LoadedNetwork {
+            architecture: architecture.clone(),
+            network: self.load(network, device)?,
+            device: device.clone(),
+        })
     }
 
     /// Bytes of a weights file of a trained light network; normalisation layers are folded.

@@ -143,8 +143,9 @@ fn branch_and_residuals_are_counted_and_take_images_in_parts() {
     let weights = Weights::from_bytes("normal.safetensors", &bytes).unwrap();
     let reference = Device::ndarray();
     let [ours, theirs] = [&device, &reference].map(|device| {
-        let (read, network) = weights.normal_network(device).unwrap();
-        assert_eq!(read, architecture);
+        let loaded = weights.normal_network(device).unwrap();
+        assert_eq!(loaded.architecture, architecture);
+        let network = loaded.network;
         let input = Tensor::<4>::from_data(input.to_data(), device);
         let normals = network.regress(network.fuse(input, 1));
         normals.into_data().try_to_vec::<f32>().unwrap()
@@ -160,8 +161,8 @@ fn weights_come_back_and_wrong_files_are_refused() {
     let network = LightNetwork::new(&architecture, false, &device).unwrap();
     let bytes = Weights::light_bytes(&architecture, &network, &BTreeMap::new()).unwrap();
     let weights = Weights::from_bytes("light.safetensors", &bytes).unwrap();
-    let (read, loaded) = weights.light_network(&device).unwrap();
-    assert_eq!(read, architecture);
+    let loaded = weights.light_network(&device).unwrap();
+    assert_eq!(loaded.architecture, architecture);
     let input = Tensor::<4>::random([3, 64, 64, 4], Distribution::Default, &device);
     let run = |network: &LightNetwork| {
         let own = network.features(input.clone());
@@ -169,7 +170,7 @@ fn weights_come_back_and_wrong_files_are_refused() {
         network.classify(own, fused)
     };
     // Half precision keeps three digits.
-    let difference = (run(&network) - run(&loaded))
+    let difference = (run(&network) - run(&loaded.network))
         .abs()
         .max()
         .into_scalar::<f32>();

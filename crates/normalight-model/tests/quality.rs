@@ -2,11 +2,13 @@
 
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{
-    ImageStack, Light, Mask, RefitSettings, Samples, StackImage, Symmetry, Transfer, Vec3,
+    CalibratedStack, ImageStack, Light, Mask, RefitSettings, Samples, StackImage, Symmetry,
+    Transfer, Vec3,
 };
 use normalight_model::{
-    EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NormalArchitecture,
-    NormalNetwork, Observer, Progress, Quality, Quiet, Stage, Weights, estimate_normals,
+    EstimateSettings, Estimator, LightArchitecture, LightNetwork, LoadedNetwork,
+    LoadedNormalNetwork, ModelError, NormalArchitecture, NormalNetwork, Observer, Progress,
+    Quality, Quiet, Stage, Weights,
 };
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -116,9 +118,7 @@ impl Scene {
 
 /// An untrained network, which treats no two views alike.
 struct Untrained {
-    architecture: NormalArchitecture,
-    network: NormalNetwork,
-    device: Device,
+    loaded: LoadedNormalNetwork,
 }
 
 impl Untrained {
@@ -130,25 +130,20 @@ impl Untrained {
         };
         let network = NormalNetwork::new(&architecture, false, &device).unwrap();
         Self {
-            architecture,
-            network,
-            device,
+            loaded: LoadedNetwork {
+                architecture,
+                network,
+                device,
+            },
         }
     }
 
     fn normals(&self, scene: &Scene, views: &[Symmetry], observer: &mut impl Observer) -> Found {
         let (stack, mask) = (scene.stack(), scene.mask());
-        let estimated = estimate_normals(
-            &self.architecture,
-            &self.network,
-            &stack,
-            &mask,
-            &scene.lights,
-            views,
-            &self.device,
-            Stage::Normals,
-            observer,
-        );
+        let calibrated = CalibratedStack::new(&stack, &mask, &scene.lights)?;
+        let estimated = self
+            .loaded
+            .estimate(calibrated, views, Stage::Normals, observer);
         let map = pollster::block_on(estimated)?;
         let rows = map.normals().chunks_exact(map.width());
         Ok(rows.map(<[Vec3]>::to_vec).collect())
@@ -228,8 +223,8 @@ fn one_view_is_the_bare_network() {
         }
     }
     let input = TensorData::new(values, [IMAGES, 16, 24, 7]);
-    let network = &untrained.network;
-    let fused = network.fuse(Tensor::from_data(input, &untrained.device), 1);
+    let network = &untrained.loaded.network;
+    let fused = network.fuse(Tensor::from_data(input, &untrained.loaded.device), 1);
     let output = network.regress(fused).into_data();
     let output = output.try_to_vec::<f32>().unwrap();
     let found = untrained

@@ -5,12 +5,11 @@
 
 use burn::tensor::Device;
 use normalight_core::{
-    Decoding, Light, NormalMap, RefitSettings, Symmetry, Vec3, angle_between, intensity_error,
-    mean_light_error, normal_error, refit_lights,
+    CalibratedStack, Decoding, Light, NormalMap, RefitSettings, Symmetry, Vec3, angle_between,
+    intensity_error, mean_light_error, normal_error, refit_lights,
 };
 use normalight_model::{
-    EstimateSettings, Estimator, Quality, Quiet, Stage, Weights, default_weights, estimate_lights,
-    estimate_normals,
+    EstimateSettings, Estimator, LightOptions, Quality, Quiet, Stage, Weights, default_weights,
 };
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::error::Error;
@@ -83,8 +82,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{:8}{:17.3}{:17.3}", quality.name(), degrees[0], degrees[1]);
     }
 
-    let (light, light_network) = light.light_network(&device)?;
-    let (normal, normal_network) = normal.normal_network(&device)?;
+    let light = light.light_network(&device)?;
+    let normal = normal.normal_network(&device)?;
 
     let mut normal_degrees = [[0.0; LIGHTS.len()]; SETS.len()];
     let mut light_errors = [[0.0; 2]; LIGHTS.len()];
@@ -93,29 +92,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         let sample = object(number);
         let (stack, mask, truth) = (sample.to_stack()?, sample.to_mask(), sample.to_normal_map());
         let find_lights = |quality| {
-            pollster::block_on(estimate_lights(
-                &light,
-                &light_network,
-                &stack,
-                &mask,
-                Decoding::SoftArgmax,
+            let options = LightOptions {
+                decoding: Decoding::SoftArgmax,
                 quality,
-                &device,
-                &mut Quiet,
-            ))
+            };
+            pollster::block_on(light.estimate(&stack, &mask, options, &mut Quiet))
         };
         let find_normals = |lights: &[Light], view: Symmetry| {
-            pollster::block_on(estimate_normals(
-                &normal,
-                &normal_network,
-                &stack,
-                &mask,
-                lights,
-                &[view],
-                &device,
-                Stage::Normals,
-                &mut Quiet,
-            ))
+            let calibrated = CalibratedStack::new(&stack, &mask, lights)?;
+            let stage = Stage::Normals;
+            pollster::block_on(normal.estimate(calibrated, &[view], stage, &mut Quiet))
         };
         let mut first: Option<[NormalMap; 2]> = None;
         let mut all_lights = vec![

@@ -6,7 +6,9 @@ use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
-use normalight_model::{LightBody, LightNetwork, Quality, Quiet, Weights, estimate_lights};
+use normalight_model::{
+    LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, Quality, Quiet, Weights,
+};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
@@ -35,10 +37,11 @@ impl Task for LightTask {
         weights: &Weights,
         device: &Device,
     ) -> Result<LightNetwork, TrainError> {
-        let (found, stored) = weights.light_network(device)?;
-        let plain = matches!(found.body, LightBody::Plain(_));
-        check_start(weights, plain, found == recipe.light.architecture)?;
-        let filled = fill(network, &mut collect(&stored));
+        let stored = weights.light_network(device)?;
+        let plain = matches!(stored.architecture.body, LightBody::Plain(_));
+        let same = stored.architecture == recipe.light.architecture;
+        check_start(weights, plain, same)?;
+        let filled = fill(network, &mut collect(&stored.network));
         filled.map_err(|reason| init_error(weights, reason))
     }
 
@@ -51,15 +54,16 @@ impl Task for LightTask {
     ) {
         let area = sample.size * sample.size;
         let inside = sample.mask.iter().filter(|&&inside| inside).count();
-        let sum: f32 = sample.images.iter().sum();
-        let mean = sum / (3 * inside.max(1) * sample.lights.len()) as f32;
-        for image in sample.images.chunks_exact(3 * area) {
-            let factor = 1.0 / mean.max(1e-12);
-            for (pixel, &inside) in sample.mask.iter().enumerate() {
-                let colour = [0, 1, 2].map(|channel| image[channel * area + pixel] * factor);
-                batch.input.extend(colour);
-                batch.input.push(f32::from(u8::from(inside)));
-            }
+        // Outside the object samples are black.
+        let sum: f64 = sample.images.iter().map(|&value| f64::from(value)).sum();
+        let count = (3 * inside.max(1) * sample.lights.len()) as f64;
+        let input = LightInput::new((sum / count) as f32);
+        let from = batch.input.len();
+        let values = sample.lights.len() * area * LightInput::CHANNELS;
+        batch.input.resize(from + values, 0.0);
+        let outs = batch.input[from..].chunks_exact_mut(area * LightInput::CHANNELS);
+        for (planes, out) in sample.images.chunks_exact(3 * area).zip(outs) {
+            input.encode(planes, &sample.mask, out);
         }
         let bins = &recipe.light.architecture.bins;
         let brightness = sample.lights.iter().map(Light::mean_intensity);
@@ -77,7 +81,7 @@ impl Task for LightTask {
     }
 
     fn channels(_recipe: &TrainRecipe) -> usize {
-        4
+        LightInput::CHANNELS
     }
 
     fn loss(
@@ -146,18 +150,18 @@ impl Task for LightTask {
         device: &Device,
     ) -> Result<Validation, TrainError> {
         let (mut sum, mut intensity) = (0.0, 0.0);
+        let loaded = LoadedNetwork {
+            architecture: recipe.light.architecture.clone(),
+            network: network.clone(),
+            device: device.clone(),
+        };
+        let options = LightOptions {
+            decoding: Decoding::SoftArgmax,
+            quality: Quality::Fast,
+        };
         for sample in objects {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-            let lights = pollster::block_on(estimate_lights(
-                &recipe.light.architecture,
-                network,
-                &stack,
-                &mask,
-                Decoding::SoftArgmax,
-                Quality::Fast,
-                device,
-                &mut Quiet,
-            ))?;
+            let lights = pollster::block_on(loaded.estimate(&stack, &mask, options, &mut Quiet))?;
             sum += mean_light_error(&lights, &sample.lights)?;
             intensity += intensity_error(&lights, &sample.lights)?;
         }

@@ -6,10 +6,11 @@ use crate::task::{Task, Validation};
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{Light, normal_error};
+use normalight_core::{CalibratedStack, Light, normal_error};
 use normalight_kernels::channels_first;
 use normalight_model::{
-    AuxiliaryTower, NormalBody, NormalNetwork, Quality, Quiet, Stage, Weights, estimate_normals,
+    AuxiliaryTower, LoadedNetwork, NormalBody, NormalInput, NormalNetwork, Quality, Quiet, Stage,
+    Weights,
 };
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
@@ -52,11 +53,12 @@ impl Task for NormalTask {
         weights: &Weights,
         device: &Device,
     ) -> Result<NormalTraining, TrainError> {
-        let (found, stored) = weights.normal_network(device)?;
-        let plain = matches!(found.body, NormalBody::Plain(_));
-        check_start(weights, plain, found == recipe.normal.architecture)?;
+        let stored = weights.normal_network(device)?;
+        let plain = matches!(stored.architecture.body, NormalBody::Plain(_));
+        let same = stored.architecture == recipe.normal.architecture;
+        check_start(weights, plain, same)?;
         let NormalTraining { network, auxiliary } = training;
-        let filled = fill(network, &mut collect(&stored));
+        let filled = fill(network, &mut collect(&stored.network));
         let network = filled.map_err(|reason| init_error(weights, reason))?;
         Ok(NormalTraining { network, auxiliary })
     }
@@ -70,33 +72,16 @@ impl Task for NormalTask {
     ) {
         let lights = mixed(&recipe.normal, &sample.lights, predicted, seed);
         let area = sample.size * sample.size;
-        let mut squares = vec![0.0f32; 3 * area];
-        for (image, light) in sample.images.chunks_exact(3 * area).zip(&lights) {
-            let factor = 1.0 / light.mean_intensity();
-            for (square, value) in squares.iter_mut().zip(image) {
-                *square += (value * factor).powi(2);
-            }
-        }
-        let scale: Vec<f32> = squares
-            .iter()
-            .map(|square| {
-                let rms = (square / lights.len() as f32).sqrt();
-                if rms > 1e-6 { 1.0 / rms } else { 0.0 }
-            })
-            .collect();
-        for (image, light) in sample.images.chunks_exact(3 * area).zip(&lights) {
-            let factor = 1.0 / light.mean_intensity();
-            for (pixel, &inside) in sample.mask.iter().enumerate() {
-                let colour = [0, 1, 2].map(|channel| {
-                    let place = channel * area + pixel;
-                    image[place] * factor * scale[place]
-                });
-                batch.input.extend(colour);
-                batch.input.extend(light.direction.to_array());
-                if recipe.normal.architecture.mask_channel {
-                    batch.input.push(f32::from(u8::from(inside)));
-                }
-            }
+        let images: Vec<&[f32]> = sample.images.chunks_exact(3 * area).collect();
+        let mask_channel = recipe.normal.architecture.mask_channel;
+        let read = |image: usize, planes: &mut [f32]| planes.copy_from_slice(images[image]);
+        let input = NormalInput::new(mask_channel, sample.mask.clone(), &lights, read);
+        let image_values = area * NormalInput::channels(mask_channel);
+        let from = batch.input.len();
+        batch.input.resize(from + images.len() * image_values, 0.0);
+        let outs = batch.input[from..].chunks_exact_mut(image_values);
+        for ((planes, light), out) in images.iter().zip(&lights).zip(outs) {
+            input.encode(planes, light, |pixel| pixel, out);
         }
         // Weights of pixels enter as the length of the true normal and as the mask's value.
         let weights = pixel_weights(sample, recipe.normal.curvature_weight);
@@ -155,20 +140,18 @@ impl Task for NormalTask {
     ) -> Result<Validation, TrainError> {
         let mut sum = 0.0;
         let mut shares = [0.0; 3];
+        let loaded = LoadedNetwork {
+            architecture: recipe.normal.architecture.clone(),
+            network: training.network.clone(),
+            device: device.clone(),
+        };
         for (index, sample) in objects.iter().enumerate() {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
             let lights = disturbed(&recipe.normal, &sample.lights, index as u64);
-            let normals = pollster::block_on(estimate_normals(
-                &recipe.normal.architecture,
-                &training.network,
-                &stack,
-                &mask,
-                &lights,
-                Quality::Fast.views(),
-                device,
-                Stage::Normals,
-                &mut Quiet,
-            ))?;
+            let calibrated = CalibratedStack::new(&stack, &mask, &lights)?;
+            let views = Quality::Fast.views();
+            let normals =
+                pollster::block_on(loaded.estimate(calibrated, views, Stage::Normals, &mut Quiet))?;
             let error = normal_error(&normals, &sample.to_normal_map(), &mask)?;
             sum += error.mean;
             for (share, found) in shares.iter_mut().zip(error.shares) {
@@ -223,6 +206,49 @@ mod tests {
     use super::*;
     use glam::Vec3;
     use normalight_synth::{Preset, Renderer};
+
+    /// What training shows the network is what the pipeline shows it, up to rounding in the stack of photographs.
+    #[test]
+    fn training_and_pipeline_encode_alike() {
+        let device = Device::flex();
+        let toml = "network = 'normal'\nsteps = 1\nsize = 16\n\
+            [normal.lights]\ntrue = 0.0\nperturbed = 1.0\n";
+        let recipe = TrainRecipe::parse("recipe.toml", toml).unwrap();
+        let renderer = Renderer::new(Preset::World.recipe()).unwrap();
+        let training = NormalTask::network(&recipe, &device).unwrap();
+        for number in 0..3 {
+            let mut sample = renderer.sample(number, 5, 16, Framing::Crop);
+            // So that the pipeline's tile is the whole crop.
+            sample.mask.fill(true);
+            let mut batch = Batch {
+                samples: 1,
+                images: 5,
+                size: 16,
+                channels: NormalTask::channels(&recipe),
+                input: Vec::new(),
+                target: Vec::new(),
+            };
+            NormalTask::append(&recipe, &sample, None, number, &mut batch);
+            let fused = training.network.fuse(batch.input(&device), 1);
+            let shown = training.network.regress(fused).into_data();
+            let shown = shown.try_to_vec::<f32>().unwrap();
+            let (stack, mask) = (sample.to_stack().unwrap(), sample.to_mask());
+            let lights = mixed(&recipe.normal, &sample.lights, None, number);
+            let calibrated = CalibratedStack::new(&stack, &mask, &lights).unwrap();
+            let loaded = LoadedNetwork {
+                architecture: recipe.normal.architecture.clone(),
+                network: training.network.clone(),
+                device: device.clone(),
+            };
+            let views = Quality::Fast.views();
+            let normals =
+                pollster::block_on(loaded.estimate(calibrated, views, Stage::Normals, &mut Quiet))
+                    .unwrap();
+            for (found, shown) in normals.normals().iter().zip(shown.chunks_exact(3)) {
+                assert!(found.distance(Vec3::from_slice(shown)) < 1e-5);
+            }
+        }
+    }
 
     /// A fold of 90 degrees between two planes: its two columns weigh more, by the chord to one of their neighbours.
     #[test]

@@ -4,7 +4,7 @@ use burn::tensor::Device;
 use glam::Vec3;
 use normalight_core::{Decoding, Light};
 use normalight_model::{
-    LightArchitecture, LightNetwork, Quality, Quiet, Weights, default_weights, estimate_lights,
+    LightOptions, LoadedLightNetwork, Quality, Quiet, Weights, default_weights,
 };
 use normalight_synth::{Sample, Scene};
 use std::path::Path;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub(crate) struct Predictor {
     weights: Arc<Weights>,
     device: Device,
-    network: Option<(LightArchitecture, LightNetwork)>,
+    network: Option<LoadedLightNetwork>,
 }
 
 impl Clone for Predictor {
@@ -73,20 +73,15 @@ impl Predictor {
     pub(crate) fn predict(&mut self, scene: &Scene) -> Result<Prediction, TrainError> {
         let sample = scene.whole(scene.lamps());
         let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-        let (architecture, network) = match &mut self.network {
+        let network = match &mut self.network {
             Some(network) => network,
             none => none.insert(self.weights.light_network(&self.device)?),
         };
-        let predicted = pollster::block_on(estimate_lights(
-            architecture,
-            network,
-            &stack,
-            &mask,
-            Decoding::SoftArgmax,
-            Quality::Fast,
-            &self.device,
-            &mut Quiet,
-        ))?;
+        let options = LightOptions {
+            decoding: Decoding::SoftArgmax,
+            quality: Quality::Fast,
+        };
+        let predicted = pollster::block_on(network.estimate(&stack, &mask, options, &mut Quiet))?;
         Ok(Prediction::new(&predicted, &sample.lights))
     }
 }
