@@ -35,7 +35,7 @@ pub use metrics::{
 pub use normal_map::NormalMap;
 pub use rect::Rect;
 pub use refit::{RefitSettings, albedo_map, refit_lights};
-pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage};
+pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage, evenly_spaced_indices};
 pub use statistics::StackStatistics;
 pub use symmetry::Symmetry;
 pub use transfer::Transfer;

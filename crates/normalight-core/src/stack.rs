@@ -103,21 +103,6 @@ impl ImageStack {
         &self.images
     }
 
-    /// The stack of `count` evenly spaced images, in order, and their positions in this one; all
-    /// when `count` is larger.
-    ///
-    /// # Errors
-    /// `count` below [`MIN_IMAGES`].
-    pub fn evenly_spaced(self, count: usize) -> Result<(Self, Vec<usize>), CoreError> {
-        let picked = evenly_spaced_indices(self.len(), count);
-        let mut images: Vec<Option<StackImage>> = self.images.into_iter().map(Some).collect();
-        let kept = picked
-            .iter()
-            .filter_map(|&index| images[index].take())
-            .collect();
-        Ok((Self::new(kept)?, picked))
-    }
-
     /// Writes a rectangle of one image as linear RGB planes into `out`.
     ///
     /// # Shapes
@@ -225,8 +210,8 @@ impl ImageStack {
     }
 }
 
-/// Positions of `count` evenly spaced items among `total`, the first included.
-fn evenly_spaced_indices(total: usize, count: usize) -> Vec<usize> {
+/// Positions of `count` evenly spaced items among `total`, in order, the first included; all when `count` is larger.
+pub fn evenly_spaced_indices(total: usize, count: usize) -> Vec<usize> {
     let count = count.min(total);
     (0..count).map(|k| k * total / count).collect()
 }

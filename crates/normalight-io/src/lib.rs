@@ -46,4 +46,4 @@ pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
 pub use report::{Report, StageSeconds, WeightHashes, report_json};
-pub use stack::read_stack;
+pub use stack::{read_stack, read_text};

@@ -5,7 +5,9 @@ use crate::input::mask_words;
 use crate::limits::{MAX_STACK_BYTES, MAX_TEXT_BYTES};
 use crate::plan::{StackPlan, find_list, plan_stack};
 use crate::{IoError, MaskChoice, NamedBytes, ReadOptions, StackInput};
-use normalight_core::{ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage};
+use normalight_core::{
+    ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, evenly_spaced_indices,
+};
 
 /// Reads a stack from files in memory: images, and possibly a list and a mask, see
 /// [`plan_stack`]. Each file is dropped once it is decoded; files that are no images are ignored.
@@ -32,7 +34,10 @@ pub fn read_stack(files: Vec<NamedBytes>, options: &ReadOptions) -> Result<Stack
 }
 
 /// Text of a small file; bytes that are no UTF-8 are replaced.
-pub(crate) fn read_text(name: &str, bytes: &[u8]) -> Result<String, IoError> {
+///
+/// # Errors
+/// [`IoError::FileTooLarge`] above [`MAX_TEXT_BYTES`].
+pub fn read_text(name: &str, bytes: &[u8]) -> Result<String, IoError> {
     if bytes.len() as u64 > MAX_TEXT_BYTES {
         return Err(IoError::FileTooLarge {
             name: name.to_owned(),
@@ -132,10 +137,7 @@ fn pick(
             found,
             expected,
         }),
-        _ => {
-            let count = wanted.unwrap_or(found).min(found);
-            Ok((0..count).map(|k| k * found / count).collect())
-        }
+        _ => Ok(evenly_spaced_indices(found, wanted.unwrap_or(found))),
     }
 }
 

@@ -46,12 +46,12 @@ pub enum ModelError {
         expected: String,
     },
     /// JSON that does not parse.
-    #[error("{name}: {source}")]
+    #[error("{name}: {reason}")]
     Json {
         /// File name.
         name: String,
         /// Where and why.
-        source: serde_json::Error,
+        reason: serde_json::Error,
     },
     /// Stack, mask or lights do not fit together.
     #[error(transparent)]

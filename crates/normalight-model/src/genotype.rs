@@ -241,9 +241,9 @@ impl Genotypes {
     /// # Errors
     /// [`ModelError::Json`] or [`ModelError::Architecture`].
     pub fn from_json(name: &str, json: &str) -> Result<Self, ModelError> {
-        let genotypes: Self = serde_json::from_str(json).map_err(|source| ModelError::Json {
+        let genotypes: Self = serde_json::from_str(json).map_err(|reason| ModelError::Json {
             name: name.to_owned(),
-            source,
+            reason,
         })?;
         if let Some(light) = &genotypes.light {
             light.validate()?;

@@ -279,9 +279,9 @@ fn encode<M: Module>(
     if let Some(error) = collector.error {
         return Err(ModelError::Device(error));
     }
-    let json = serde_json::to_string(architecture).map_err(|source| ModelError::Json {
+    let json = serde_json::to_string(architecture).map_err(|reason| ModelError::Json {
         name: "architecture".into(),
-        source,
+        reason,
     })?;
     let mut metadata: HashMap<String, String> = notes.clone().into_iter().collect();
     metadata.insert("format".into(), "normalight".into());

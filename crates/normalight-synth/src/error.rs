@@ -31,12 +31,12 @@ pub enum SynthError {
         message: String,
     },
     /// A file could not be read.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {reason}", file.display())]
     File {
         /// The file.
         file: PathBuf,
         /// Why.
-        source: io::Error,
+        reason: io::Error,
     },
     /// A file of measured materials has other contents than expected.
     #[error("{}: {found} found, {expected} expected", file.display())]

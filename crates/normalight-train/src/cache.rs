@@ -98,9 +98,9 @@ impl SceneCache {
             reason,
         };
         if path.exists() {
-            let bytes = std::fs::read(&path).map_err(|source| TrainError::File {
+            let bytes = std::fs::read(&path).map_err(|reason| TrainError::File {
                 path: path.clone(),
-                source,
+                reason,
             })?;
             let found: Mark =
                 serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
@@ -145,7 +145,7 @@ impl SceneCache {
                 write_files(&self.folder, &[(name, scene.to_bytes()?)])?;
                 scene
             }
-            Err(source) => return Err(TrainError::File { path, source }),
+            Err(reason) => return Err(TrainError::File { path, reason }),
         };
         Ok(scene.reseeded(number))
     }

@@ -85,9 +85,9 @@ pub(crate) fn save(
         safetensors::serialize(views, Some(metadata)).map_err(|error| failed(error.to_string()))?;
     write_files(folder, &[(NEXT, file)])?;
     let rename = |from: &str, to: &str| {
-        std::fs::rename(folder.join(from), folder.join(to)).map_err(|source| TrainError::File {
+        std::fs::rename(folder.join(from), folder.join(to)).map_err(|reason| TrainError::File {
             path: folder.join(to),
-            source,
+            reason,
         })
     };
     if newest.exists() {
@@ -130,9 +130,9 @@ pub(crate) fn load(folder: &Path) -> Result<Loaded, TrainError> {
 }
 
 fn read(path: &Path) -> Result<(NamedTensors, Standing), TrainError> {
-    let bytes = std::fs::read(path).map_err(|source| TrainError::File {
+    let bytes = std::fs::read(path).map_err(|reason| TrainError::File {
         path: path.to_owned(),
-        source,
+        reason,
     })?;
     let broken = |reason: String| TrainError::Checkpoint {
         path: path.to_owned(),

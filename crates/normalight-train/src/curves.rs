@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -65,16 +65,30 @@ pub(crate) fn write(folder: &Path, points: &[Point]) -> Result<(), TrainError> {
     Ok(write_files(folder, &[(PNG, png)])?)
 }
 
-/// Reads `curves.csv` back; lines that do not parse are dropped.
-pub(crate) fn read(folder: &Path) -> Vec<Point> {
-    let text = std::fs::read_to_string(folder.join(CSV)).unwrap_or_default();
+/// Reads `curves.csv` back; no points where there is no such file yet.
+///
+/// # Errors
+/// A file that cannot be read, or that is not such a table: it would be overwritten otherwise.
+pub(crate) fn read(folder: &Path) -> Result<Vec<Point>, TrainError> {
+    let path = folder.join(CSV);
+    let text = match std::fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(reason) => return Err(TrainError::File { path, reason }),
+    };
+    let wrong = |line: usize, expected: &str| TrainError::Checkpoint {
+        path: path.clone(),
+        reason: format!("line {line} is not as written, expected {expected}"),
+    };
     let mut lines = text.lines();
     let header = lines.next().unwrap_or_default();
-    let Some(names) = header.strip_prefix(COLUMNS) else {
-        return Vec::new();
-    };
+    let names = header.strip_prefix(COLUMNS);
+    let names = names.ok_or_else(|| wrong(1, &format!("columns {COLUMNS}")))?;
     let names: Vec<&str> = names.split(',').skip(1).collect();
-    lines.filter_map(|line| point(line, &names)).collect()
+    lines
+        .enumerate()
+        .map(|(k, line)| point(line, &names).ok_or_else(|| wrong(k + 2, "numbers")))
+        .collect()
 }
 
 fn point(line: &str, names: &[&str]) -> Option<Point> {
@@ -194,7 +208,7 @@ mod tests {
             })
             .collect();
         write(folder.path(), &points).unwrap();
-        assert_eq!(read(folder.path()), points);
+        assert_eq!(read(folder.path()).unwrap(), points);
         let picture = image::open(folder.path().join(PNG)).unwrap().to_rgb8();
         assert_eq!(picture.dimensions(), SIZE);
         // Titles and numbers: dark pixels left of and above the curves.
@@ -206,10 +220,19 @@ mod tests {
         };
         assert!(dark(0..70, 60..340) > 100, "numbers of the upper axis");
         assert!(dark(300..600, 0..36) > 100, "the title");
-        // A line that is no number is left out, the others stay.
+        // Another table is an error, not an empty one that the next write would replace; none is no error.
         let file = folder.path().join(CSV);
         let text = std::fs::read_to_string(&file).unwrap();
-        std::fs::write(&file, text.replace("\n500,", "\nx,")).unwrap();
-        assert_eq!(read(folder.path()).len(), 39);
+        for (damaged, line) in [
+            (text.replace("\n500,", "\nx,"), "line 3"),
+            (text.replacen("step", "epoch", 1), "line 1"),
+            (String::new(), "line 1"),
+        ] {
+            std::fs::write(&file, damaged).unwrap();
+            let error = read(folder.path()).unwrap_err().to_string();
+            assert!(error.contains(CSV) && error.contains(line), "{error}");
+        }
+        std::fs::remove_file(&file).unwrap();
+        assert_eq!(read(folder.path()).unwrap(), []);
     }
 }

@@ -27,12 +27,12 @@ pub enum TrainError {
         expected: &'static str,
     },
     /// A file of the run cannot be read or written.
-    #[error("{path}: {source}")]
+    #[error("{path}: {reason}")]
     File {
         /// The file.
         path: PathBuf,
         /// The system's reason.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// A checkpoint that does not belong to this run or is damaged.
     #[error("{path}: {reason}")]
@@ -130,6 +130,67 @@ impl TrainError {
         match self {
             Self::Diverged { .. } => 3,
             _ => 1,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::error::Error;
+
+    /// The command prints a failure with everything below it: each reason must stand there once.
+    #[test]
+    fn reasons_are_said_once() {
+        let reason = || std::io::Error::other("the disk is gone");
+        let path = std::path::PathBuf::from("weights");
+        let json = serde_json::from_str::<u8>("the disk is gone").unwrap_err();
+        let said = json.to_string();
+        let errors: [(Box<dyn Error>, &str); 5] = [
+            (
+                Box::new(TrainError::File {
+                    path: path.clone(),
+                    reason: reason(),
+                }),
+                "the disk is gone",
+            ),
+            (
+                Box::new(TrainError::Synth(SynthError::File {
+                    file: path,
+                    reason: reason(),
+                })),
+                "the disk is gone",
+            ),
+            (
+                Box::new(TrainError::Io(normalight_io::IoError::Read {
+                    name: "weights".to_owned(),
+                    reason: reason(),
+                })),
+                "the disk is gone",
+            ),
+            (
+                Box::new(TrainError::Model(ModelError::Json {
+                    name: "weights".to_owned(),
+                    reason: json,
+                })),
+                &said,
+            ),
+            (
+                Box::new(TrainError::Core(CoreError::LightCount {
+                    found: 3,
+                    expected: 7,
+                })),
+                "3",
+            ),
+        ];
+        for (error, reason) in &errors {
+            let mut text = error.to_string();
+            let mut below = error.source();
+            while let Some(next) = below {
+                text += &format!(": {next}");
+                below = next.source();
+            }
+            assert_eq!(text.matches(reason).count(), 1, "{text}");
         }
     }
 }

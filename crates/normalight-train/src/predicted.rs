@@ -126,9 +126,9 @@ fn mean(lights: &[Light]) -> f32 {
 
 /// Reads a weights file of either network.
 pub(crate) fn read_weights(path: &Path) -> Result<Weights, TrainError> {
-    let bytes = std::fs::read(path).map_err(|source| TrainError::File {
+    let bytes = std::fs::read(path).map_err(|reason| TrainError::File {
         path: path.to_owned(),
-        source,
+        reason,
     })?;
     Ok(Weights::from_bytes(&path.display().to_string(), &bytes)?)
 }

@@ -170,9 +170,9 @@ impl TrainRecipe {
     /// Relative paths start at the folder of the recipe's file and become absolute: a run may be continued from another
     /// folder than it was begun in.
     pub(crate) fn with_paths_from(mut self, file: &Path) -> Result<Self, TrainError> {
-        let file = std::path::absolute(file).map_err(|source| TrainError::File {
+        let file = std::path::absolute(file).map_err(|reason| TrainError::File {
             path: file.to_owned(),
-            source,
+            reason,
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         self.scene.resolve_paths(folder);
@@ -244,9 +244,9 @@ impl TrainRecipe {
 }
 
 fn read_text(path: &Path) -> Result<String, TrainError> {
-    std::fs::read_to_string(path).map_err(|source| TrainError::File {
+    std::fs::read_to_string(path).map_err(|reason| TrainError::File {
         path: path.to_owned(),
-        source,
+        reason,
     })
 }
 

@@ -39,13 +39,13 @@ impl RunFolder {
     /// [`TrainError::Locked`], or [`TrainError::File`].
     pub(crate) fn open(job: &Job) -> Result<Self, TrainError> {
         let path = &job.folder;
-        let failed = |source| TrainError::File {
+        let failed = |reason| TrainError::File {
             path: path.to_owned(),
-            source,
+            reason,
         };
         std::fs::create_dir_all(path).map_err(failed)?;
         let file = path.join(LOCK);
-        let lock = File::create(&file).map_err(|source| TrainError::File { path: file, source })?;
+        let lock = File::create(&file).map_err(|reason| TrainError::File { path: file, reason })?;
         match lock.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
@@ -85,7 +85,7 @@ impl RunFolder {
                 }
                 return Ok(Found::Begun(None));
             }
-            Err(source) => return Err(TrainError::File { path: file, source }),
+            Err(reason) => return Err(TrainError::File { path: file, reason }),
         };
         let found = differences(&text, &job.recipe).map_err(|error| TrainError::Recipe {
             file: file.display().to_string(),

@@ -51,7 +51,7 @@ pub(crate) fn train_loop<L: Learner>(
     standing: &mut Standing,
     mut observe: impl FnMut(StepReport) -> ControlFlow<()>,
 ) -> Result<ControlFlow<()>, TrainError> {
-    let mut points = curves::read(folder.path());
+    let mut points = curves::read(folder.path())?;
     points.retain(|point| point.step <= standing.step);
     let mut speed = Speed::default();
     while standing.step < pace.steps {

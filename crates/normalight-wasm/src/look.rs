@@ -3,7 +3,7 @@ use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
 use crate::settings::Color;
 use js_sys::Uint8Array;
-use normalight_io::{NamedBytes, decode_image, find_list, plan_stack};
+use normalight_io::{NamedBytes, decode_image, find_list, plan_stack, read_text};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
@@ -26,13 +26,14 @@ struct Thumbnail {
 /// the content of text files: the bytes of other files may be left out.
 ///
 /// # Errors
-/// A list among the files that is wrong.
+/// A list among the files that is wrong or too long.
 #[wasm_bindgen]
 pub fn plan(files: Vec<InputFile>) -> Result<JsValue, Failure> {
     let files = named_bytes(files);
     let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
     let list = find_list(&names, |index| {
-        Ok(String::from_utf8_lossy(&files[index].bytes).into_owned())
+        let file = &files[index];
+        read_text(&file.name, &file.bytes)
     })?;
     let list = list
         .as_ref()

@@ -42,9 +42,9 @@ impl Measured {
     /// # Errors
     /// The file cannot be read, or holds something else.
     pub(crate) fn read(file: &Path) -> Result<Vec<Self>, SynthError> {
-        let failed = |source| SynthError::File {
+        let failed = |reason| SynthError::File {
             file: file.to_owned(),
-            source,
+            reason,
         };
         let wrong = |found: String| SynthError::Measured {
             file: file.to_owned(),

@@ -83,9 +83,9 @@ fn value<T: Serialize>(genotype: &T) -> Option<Value> {
 }
 
 fn read(path: &Path, network: &str) -> Result<Value, TrainError> {
-    let text = std::fs::read_to_string(path).map_err(|source| TrainError::File {
+    let text = std::fs::read_to_string(path).map_err(|reason| TrainError::File {
         path: path.to_owned(),
-        source,
+        reason,
     })?;
     let genotypes = Genotypes::from_json(&path.display().to_string(), &text)?;
     let cells = match network {

@@ -94,9 +94,9 @@ impl OperationTimes {
     /// # Errors
     /// [`TrainError::File`], or [`TrainError::Recipe`] for other contents.
     pub fn read(path: &Path) -> Result<Self, TrainError> {
-        let text = std::fs::read_to_string(path).map_err(|source| TrainError::File {
+        let text = std::fs::read_to_string(path).map_err(|reason| TrainError::File {
             path: path.to_owned(),
-            source,
+            reason,
         })?;
         let failed = |reason: String| TrainError::Recipe {
             file: path.display().to_string(),

@@ -153,9 +153,9 @@ impl SearchRecipe {
     /// # Errors
     /// As of [`TrainRecipe::read`].
     pub fn read(path: &Path) -> Result<Self, TrainError> {
-        let text = std::fs::read_to_string(path).map_err(|source| TrainError::File {
+        let text = std::fs::read_to_string(path).map_err(|reason| TrainError::File {
             path: path.to_owned(),
-            source,
+            reason,
         })?;
         let recipe = Self::parse(&path.display().to_string(), &text)?;
         recipe.with_paths_from(path)
@@ -189,9 +189,9 @@ impl SearchRecipe {
             && let Some(folder) = file.parent()
         {
             *times =
-                std::path::absolute(folder.join(&*times)).map_err(|source| TrainError::File {
+                std::path::absolute(folder.join(&*times)).map_err(|reason| TrainError::File {
                     path: times.clone(),
-                    source,
+                    reason,
                 })?;
         }
         self.training = self.training.with_paths_from(file)?;

@@ -127,9 +127,9 @@ fn genotype_files(path: &Path) -> Result<Vec<PathBuf>, TrainError> {
     if found.exists() {
         return Ok(vec![found]);
     }
-    let failed = |source| TrainError::File {
+    let failed = |reason| TrainError::File {
         path: path.to_owned(),
-        source,
+        reason,
     };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(path).map_err(failed)? {
@@ -158,9 +158,9 @@ fn may_hold_genotypes(text: &str) -> bool {
 }
 
 fn read_text(path: &Path) -> Result<String, TrainError> {
-    std::fs::read_to_string(path).map_err(|source| TrainError::File {
+    std::fs::read_to_string(path).map_err(|reason| TrainError::File {
         path: path.to_owned(),
-        source,
+        reason,
     })
 }
 

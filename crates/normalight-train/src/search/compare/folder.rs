@@ -112,7 +112,7 @@ impl Folder {
         match std::fs::read_to_string(&path) {
             Ok(text) => Ok(Some(text)),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(source) => Err(TrainError::File { path, source }),
+            Err(reason) => Err(TrainError::File { path, reason }),
         }
     }
 }
