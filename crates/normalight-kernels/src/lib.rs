@@ -20,6 +20,8 @@ mod backend;
 mod cpu;
 mod operations;
 
+#[cfg(feature = "flex")]
+pub use cpu::buffer::{limit_kept_memory, release_kept_memory};
 pub use operations::{
     BatchMoments, Convolution, batch_norm, channels_first, channels_last, convolution,
     depthwise_relu, generic, max_over_images, orthogonalised, scale_channels,

@@ -13,12 +13,27 @@ struct Line([f32; LINE]);
 
 const LINE: usize = 16;
 
-/// Most lines that lie unused: a gigabyte, in the browser an eighth of one.
+/// Most lines that lie unused unless a limit is set: a gigabyte, in the browser an eighth of one.
 const KEPT: usize = if cfg!(target_family = "wasm") {
     1 << 21
 } else {
     1 << 24
 };
+
+/// Sets how many bytes of buffers at most are kept for the next operation that needs such memory (by default 1 GiB, in
+/// the browser 128 MiB), and gives back what is above. With 0, every buffer goes back to the system at once.
+pub fn limit_kept_memory(bytes: usize) {
+    let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
+    let limit = bytes / size_of::<Line>();
+    unused.limit = limit;
+    unused.shrink(limit);
+}
+
+/// Gives all memory back that is kept for later operations, which will ask the system for it again. The limit stays.
+pub fn release_kept_memory() {
+    let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
+    unused.shrink(0);
+}
 
 /// Buffers given back.
 struct Unused {
@@ -26,11 +41,14 @@ struct Unused {
     stacks: BTreeMap<usize, Vec<Vec<Line>>>,
     /// Lines of all.
     total: usize,
+    /// Most of them.
+    limit: usize,
 }
 
 static UNUSED: Mutex<Unused> = Mutex::new(Unused {
     stacks: BTreeMap::new(),
     total: 0,
+    limit: KEPT,
 });
 
 impl Unused {
@@ -45,8 +63,12 @@ impl Unused {
     fn put(&mut self, lines: Vec<Line>) {
         self.total += lines.len();
         self.stacks.entry(lines.len()).or_default().push(lines);
-        while self.total > KEPT {
-            // The largest.
+        self.shrink(self.limit);
+    }
+
+    /// Drops the largest until at most so many lines are left.
+    fn shrink(&mut self, limit: usize) {
+        while self.total > limit {
             match self.stacks.pop_last() {
                 Some((size, stack)) => self.total -= size * stack.len(),
                 None => break,
@@ -150,5 +172,39 @@ impl AllocationController for Buffer {
         #[expect(unsafe_code, reason = "floats seen as bytes")]
         // SAFETY: the same memory, all of it initialised.
         Ok(unsafe { std::slice::from_raw_parts(floats.as_ptr().cast(), size_of_val(floats)) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(count: usize) -> Vec<Line> {
+        vec![Line([0.0; LINE]); count]
+    }
+
+    /// A store of its own: the common one is used by other tests meanwhile.
+    #[test]
+    fn no_more_is_kept_than_the_limit_allows() {
+        let mut unused = Unused {
+            stacks: BTreeMap::new(),
+            total: 0,
+            limit: 100,
+        };
+        for count in [40, 10, 30, 10] {
+            unused.put(lines(count));
+        }
+        assert_eq!(unused.total, 90);
+        // The largest goes first.
+        unused.put(lines(20));
+        assert_eq!(unused.total, 70);
+        assert_eq!(unused.take(25).map(|lines| lines.len()), Some(30));
+        assert_eq!(unused.total, 40);
+        unused.shrink(0);
+        assert_eq!(unused.total, 0);
+        assert!(unused.take(10).is_none());
+        unused.limit = 0;
+        unused.put(lines(5));
+        assert_eq!(unused.total, 0);
     }
 }

@@ -278,6 +278,10 @@ impl<'a> Row<'a> {
     }
 
     fn compute(self) {
+        run(self);
+    }
+
+    fn check(&self) {
         for (value, weight) in &self.taps[..self.count] {
             assert!(
                 value + self.out.len() <= self.values.len()
@@ -286,7 +290,6 @@ impl<'a> Row<'a> {
                 "a row reaches beyond its image"
             );
         }
-        run(self);
     }
 }
 
@@ -295,6 +298,7 @@ impl WithSimd for Row<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
+        self.check();
         let (lanes, length) = (S::F32_LANES, self.out.len());
         let mut from = 0;
         while from + TOGETHER * lanes <= length {
@@ -324,7 +328,7 @@ impl Row<'_> {
         let places: [usize; N] = std::array::from_fn(|n| (from + n * S::F32_LANES) % self.period);
         let mut sums = [simd.splat_f32s(0.0); N];
         for (value, weight) in &self.taps[..self.count] {
-            // SAFETY: `compute` has checked that the row lies inside `values` for every tap, and that a period, which
+            // SAFETY: `check` has seen that the row lies inside `values` for every tap, and that a period, which
             // is made of whole vectors, lies inside `weight`.
             unsafe {
                 let weight = self.weight.as_ptr().add(*weight);
@@ -355,6 +359,10 @@ struct WeightSums<'a> {
 
 impl WeightSums<'_> {
     fn compute(self) {
+        run(self);
+    }
+
+    fn check(&self) {
         let depthwise = self.depthwise;
         assert!(
             self.seen.len() >= depthwise.rows() * depthwise.line()
@@ -362,7 +370,6 @@ impl WeightSums<'_> {
                 && self.sums.len() >= depthwise.taps() * depthwise.period(),
             "sums reach beyond their image"
         );
-        run(self);
     }
 }
 
@@ -371,6 +378,7 @@ impl WithSimd for WeightSums<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
+        self.check();
         match self.depthwise.size {
             1 => self.rows::<S, 1>(simd),
             3 => self.rows::<S, 3>(simd),
@@ -394,7 +402,7 @@ impl WeightSums<'_> {
                     let seen = (y * depthwise.stride + tap_row) * line;
                     for from in (place..width).step_by(period) {
                         let lanes = Lanes::new(simd, width - from);
-                        // SAFETY: `compute` has checked the buffers; a shifted row ends inside its line.
+                        // SAFETY: `check` has seen the buffers; a shifted row ends inside its line.
                         unsafe {
                             let gradient = self.gradient.as_ptr().add(y * width + from);
                             let gradient = lanes.load(gradient);
@@ -406,7 +414,7 @@ impl WeightSums<'_> {
                     }
                 }
                 for (column, sum) in sums.into_iter().enumerate() {
-                    // SAFETY: a period is made of whole vectors, and `compute` has checked the buffer.
+                    // SAFETY: a period is made of whole vectors, and `check` has seen the buffer.
                     unsafe {
                         let to = (tap_row * K + column) * period + place;
                         let to = self.sums.as_mut_ptr().add(to).cast::<S::f32s>();

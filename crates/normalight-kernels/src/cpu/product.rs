@@ -69,10 +69,14 @@ pub(crate) struct Product<'a> {
 
 impl Product<'_> {
     pub(crate) fn compute(self) {
-        let ([rows, columns], [outer, inner]) = (self.size, self.counts);
-        if rows == 0 || columns == 0 {
-            return;
+        if !self.size.contains(&0) {
+            run(self);
         }
+    }
+
+    /// Panics unless the largest index of every matrix lies inside its slice.
+    fn check(&self) {
+        let ([rows, columns], [outer, inner]) = (self.size, self.counts);
         assert!(outer > 0 && inner > 0, "a product without factors");
         let along = |steps: [usize; 2]| (outer - 1) * steps[0] + (inner - 1) * steps[1];
         let left = (rows - 1) * self.left.row + along(self.left.steps);
@@ -89,7 +93,6 @@ impl Product<'_> {
                 && columns <= bias,
             "a matrix product reaches beyond its slices"
         );
-        run(self);
     }
 }
 
@@ -98,6 +101,7 @@ impl WithSimd for Product<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
+        self.check();
         let [rows, columns] = self.size;
         let most = TILE_ROWS[usize::from(S::REGISTER_COUNT < 32)];
         let pair = 2 * S::F32_LANES;
@@ -143,7 +147,7 @@ impl Tile {
         last: Lanes<S>,
     ) {
         #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
-        // SAFETY: `Product::compute` has checked the largest index of every matrix, and a tile lies inside the product.
+        // SAFETY: `Product::check` has seen the largest index of every matrix, and a tile lies inside the product.
         unsafe {
             match self.rows {
                 1 => self.rows::<S, 1, N, WHOLE>(product, last),
@@ -158,6 +162,10 @@ impl Tile {
         }
     }
 
+    /// `M` rows and `N` vectors of columns.
+    ///
+    /// # Safety
+    /// [`Product::check`] must have passed, and the tile's rows and the lanes in use must lie inside the product.
     #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
     #[inline(always)]
     unsafe fn rows<S: Simd, const M: usize, const N: usize, const WHOLE: bool>(
@@ -171,6 +179,8 @@ impl Tile {
         let zero = simd.splat_f32s(0.0);
         let mut sums = [[zero; N]; M];
         let (left, right) = (&product.left, &product.right);
+        // SAFETY: every index is at most the largest of its matrix, which `Product::check` has seen; of the last vector
+        // only the lanes of columns that exist are read and written. The output is borrowed exclusively.
         unsafe {
             for outer in 0..product.counts[0] {
                 let from = self.row * left.row + outer * left.steps[0];

@@ -17,7 +17,7 @@ pub(crate) fn run<T: WithSimd>(operation: T) -> T::Output {
     Arch::new().dispatch(operation)
 }
 
-/// Floats of the widest vectors.
+/// Floats of the widest vectors; all others divide them.
 pub(crate) const WIDEST: usize = 16;
 
 /// Floats after which values repeated every `channels` floats begin again at the start of a vector: rows of narrow
@@ -45,6 +45,7 @@ impl<S: Simd> Lanes<S> {
     /// Access to all lanes, known to the compiler.
     #[inline(always)]
     pub(crate) fn all(simd: S) -> Self {
+        const { assert!(WIDEST.is_multiple_of(S::F32_LANES)) };
         Self {
             simd,
             mask: simd.mask_between_m32s(0, S::F32_LANES as u32),
@@ -55,6 +56,7 @@ impl<S: Simd> Lanes<S> {
     /// Access to the first `count` lanes; all of them when there are more.
     #[inline(always)]
     pub(crate) fn new(simd: S, count: usize) -> Self {
+        const { assert!(WIDEST.is_multiple_of(S::F32_LANES)) };
         Self {
             simd,
             mask: simd.mask_between_m32s(0, count.min(S::F32_LANES) as u32),
@@ -66,6 +68,7 @@ impl<S: Simd> Lanes<S> {
     /// The lanes in use must lie inside the allocation that `from` points to.
     #[inline(always)]
     pub(crate) unsafe fn load(self, from: *const f32) -> S::f32s {
+        // SAFETY: the caller answers for the lanes in use; any bits make floats, and neither way asks for alignment.
         unsafe {
             if self.whole {
                 from.cast::<S::f32s>().read_unaligned()
@@ -76,9 +79,11 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// # Safety
-    /// As [`Self::load`].
+    /// The lanes in use must lie inside the allocation that `to` points to, which must be writable and not be read or
+    /// written by anyone else meanwhile.
     #[inline(always)]
     pub(crate) unsafe fn store(self, to: *mut f32, value: S::f32s) {
+        // SAFETY: as in `load`, and the caller answers for nobody else looking.
         unsafe {
             if self.whole {
                 to.cast::<S::f32s>().write_unaligned(value);

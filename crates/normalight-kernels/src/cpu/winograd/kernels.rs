@@ -12,8 +12,11 @@ pub(super) struct Kernels<'a> {
 
 impl Kernels<'_> {
     pub(super) fn run(self) {
-        check_planes(self.weight.len(), self.points.len());
         run(self);
+    }
+
+    fn check(&self) {
+        check_planes(self.weight.len(), self.points.len());
     }
 }
 
@@ -30,13 +33,14 @@ impl WithSimd for Kernels<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        self.check();
         let a = Vectors(simd);
         let plane = self.weight.len() / TAPS;
         for first in (0..plane).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, plane - first);
             let mut half = [[simd.splat_f32s(0.0); 3]; SIDE];
             for x in 0..3 {
-                // SAFETY: `run` has checked the planes, and the lanes end with them.
+                // SAFETY: `check` has seen the planes, and the lanes end with them.
                 let column = std::array::from_fn(|y| unsafe {
                     lanes.load(self.weight.as_ptr().add((y * 3 + x) * plane + first))
                 });
@@ -63,8 +67,11 @@ pub(super) struct KernelGradients<'a> {
 
 impl KernelGradients<'_> {
     pub(super) fn run(self) {
-        check_planes(self.weight.len(), self.points.len());
         run(self);
+    }
+
+    fn check(&self) {
+        check_planes(self.weight.len(), self.points.len());
     }
 }
 
@@ -74,13 +81,14 @@ impl WithSimd for KernelGradients<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        self.check();
         let a = Vectors(simd);
         let plane = self.weight.len() / TAPS;
         for first in (0..plane).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, plane - first);
             let mut half = [[simd.splat_f32s(0.0); SIDE]; 3];
             for x in 0..SIDE {
-                // SAFETY: `run` has checked the planes, and the lanes end with them.
+                // SAFETY: `check` has seen the planes, and the lanes end with them.
                 let column = std::array::from_fn(|y| unsafe {
                     lanes.load(self.points.as_ptr().add((y * SIDE + x) * plane + first))
                 });

@@ -55,6 +55,10 @@ pub(super) struct Gather<'a> {
 
 impl Gather<'_> {
     pub(super) fn run(self) {
+        run(self);
+    }
+
+    fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         check_window(
             self.tiles,
@@ -62,7 +66,6 @@ impl Gather<'_> {
             self.place.channels,
             self.window.len(),
         );
-        run(self);
     }
 }
 
@@ -80,6 +83,7 @@ impl WithSimd for Gather<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        self.check();
         let a = Vectors(simd);
         for channel in (0..self.place.channels).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, self.place.channels - channel);
@@ -87,7 +91,7 @@ impl WithSimd for Gather<'_> {
                 let mut half = [[simd.splat_f32s(0.0); SIDE]; SIDE];
                 for (y, half) in half.iter_mut().enumerate() {
                     let from = (y * self.columns + tile * KEPT) * self.place.channels + channel;
-                    // SAFETY: `run` has checked the last tile's place in the window; a tile is 6 columns wide.
+                    // SAFETY: `check` has seen the last tile's place in the window; a tile is 6 columns wide.
                     let row: [S::f32s; SIDE] = std::array::from_fn(|x| unsafe {
                         lanes.load(self.window.as_ptr().add(from + x * self.place.channels))
                     });
@@ -97,7 +101,7 @@ impl WithSimd for Gather<'_> {
                     let column = input(a, std::array::from_fn(|y| half[y][x]));
                     for (y, value) in column.into_iter().enumerate() {
                         let to = self.place.at(y * SIDE + x, self.first + tile, channel);
-                        // SAFETY: `run` has checked the last tile's place.
+                        // SAFETY: `check` has seen the last tile's place.
                         unsafe { lanes.store(self.points.as_mut_ptr().add(to), value) };
                     }
                 }
@@ -118,6 +122,10 @@ pub(super) struct Scatter<'a> {
 
 impl Scatter<'_> {
     pub(super) fn run(self) {
+        run(self);
+    }
+
+    fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         check_window(
             self.tiles,
@@ -125,7 +133,6 @@ impl Scatter<'_> {
             self.place.channels,
             self.window.len(),
         );
-        run(self);
     }
 }
 
@@ -135,13 +142,14 @@ impl WithSimd for Scatter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        self.check();
         let (a, zero) = (Vectors(simd), simd.splat_f32s(0.0));
         for channel in (0..self.place.channels).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, self.place.channels - channel);
             for tile in 0..self.tiles {
                 let mut half = [[simd.splat_f32s(0.0); SIDE]; SIDE];
                 for x in 0..SIDE {
-                    // SAFETY: `run` has checked the last tile's place.
+                    // SAFETY: `check` has seen the last tile's place.
                     let column: [S::f32s; SIDE] = std::array::from_fn(|y| unsafe {
                         let from = self.place.at(y * SIDE + x, self.first + tile, channel);
                         lanes.load(self.points.as_ptr().add(from))
@@ -156,7 +164,7 @@ impl WithSimd for Scatter<'_> {
                     for (x, value) in input_transposed(a, half).into_iter().enumerate() {
                         // The tile before has left its part in the first columns.
                         let shared = tile > 0 && x < SIDE - KEPT;
-                        // SAFETY: `run` has checked the last tile's place in the window.
+                        // SAFETY: `check` has seen the last tile's place in the window.
                         unsafe {
                             let to = self.window.as_mut_ptr().add(to + x * self.place.channels);
                             let before = if shared { lanes.load(to) } else { zero };
@@ -186,6 +194,10 @@ pub(super) struct Write<'a> {
 
 impl Write<'_> {
     pub(super) fn run(self) {
+        run(self);
+    }
+
+    fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         assert!(
             self.rows <= KEPT
@@ -193,7 +205,6 @@ impl Write<'_> {
                 && self.place.channels <= self.bias.len(),
             "tiles beyond the output"
         );
-        run(self);
     }
 }
 
@@ -203,15 +214,16 @@ impl WithSimd for Write<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        self.check();
         let a = Vectors(simd);
         for channel in (0..self.place.channels).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, self.place.channels - channel);
-            // SAFETY: `run` has checked that there is a bias for every channel.
+            // SAFETY: `check` has seen that there is a bias for every channel.
             let bias = unsafe { lanes.load(self.bias.as_ptr().add(channel)) };
             for tile in 0..self.tiles {
                 let mut half = [[simd.splat_f32s(0.0); SIDE]; KEPT];
                 for x in 0..SIDE {
-                    // SAFETY: `run` has checked the last tile's place.
+                    // SAFETY: `check` has seen the last tile's place.
                     let column: [S::f32s; SIDE] = std::array::from_fn(|y| unsafe {
                         let from = self.place.at(y * SIDE + x, self.first + tile, channel);
                         lanes.load(self.points.as_ptr().add(from))
@@ -254,6 +266,10 @@ pub(super) struct Spread<'a> {
 
 impl Spread<'_> {
     pub(super) fn run(self) {
+        run(self);
+    }
+
+    fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         let floats = self.rows * self.columns * self.place.channels;
         assert!(
@@ -263,7 +279,6 @@ impl Spread<'_> {
                 && self.place.channels <= self.bias.len(),
             "tiles beyond the output"
         );
-        run(self);
     }
 }
 
@@ -274,6 +289,7 @@ impl WithSimd for Spread<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        self.check();
         let a = Vectors(simd);
         let zero = simd.splat_f32s(0.0);
         for channel in (0..self.place.channels).step_by(S::F32_LANES) {
@@ -305,12 +321,12 @@ impl WithSimd for Spread<'_> {
                     let column = output_transposed(a, std::array::from_fn(|y| half[y][x]));
                     for (y, value) in column.into_iter().enumerate() {
                         let to = self.place.at(y * SIDE + x, self.first + tile, channel);
-                        // SAFETY: `run` has checked the last tile's place.
+                        // SAFETY: `check` has seen the last tile's place.
                         unsafe { lanes.store(self.points.as_mut_ptr().add(to), value) };
                     }
                 }
             }
-            // SAFETY: `run` has checked that there is a bias for every channel.
+            // SAFETY: `check` has seen that there is a bias for every channel.
             unsafe {
                 let to = self.bias.as_mut_ptr().add(channel);
                 lanes.store(to, simd.add_f32s(sum, lanes.load(to)));
