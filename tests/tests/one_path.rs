@@ -3,7 +3,7 @@
 
 use burn::tensor::Device;
 use normalight_core::{mean_light_error, normal_error};
-use normalight_model::{Estimate, EstimateSettings, Estimator, Quiet, default_weights};
+use normalight_model::{Estimate, EstimateSettings, Estimator, NoopObserver, default_weights};
 use normalight_tests::golden_sample;
 
 /// Mean difference that two paths may have, in degrees.
@@ -19,7 +19,7 @@ fn estimate(device: Device) -> Estimate {
         &sample.to_mask(),
         None,
         EstimateSettings::default(),
-        &mut Quiet,
+        &mut NoopObserver,
     ))
     .expect("the golden stack can be estimated")
 }

@@ -7,56 +7,56 @@ const GRACE = 2000;
 /** Who follows a task. */
 export interface Follow {
   readonly signal?: AbortSignal | undefined;
-  readonly onNews?: ((news: Extract<FromWorker, { fraction: number }>) => void) | undefined;
+  readonly onEvent?: ((event: Extract<FromWorker, { fraction: number }>) => void) | undefined;
 }
 
 interface Pending extends Follow {
-  resolve(answer: unknown): void;
+  resolve(response: unknown): void;
   reject(reason: unknown): void;
 }
 
 /** What is used of a worker. */
 export type WorkerLike = Pick<Worker, "postMessage" | "terminate" | "onmessage" | "onerror">;
 
-/** One worker, which does one task at a time, until it is lost. */
+/** One worker, which does one task at a time, until it is terminated. */
 export class Connection {
   readonly #worker: WorkerLike;
   #pending: Pending | undefined;
-  #lost: NormalightError | undefined;
+  #terminated: NormalightError | undefined;
 
   constructor(worker: WorkerLike) {
     this.#worker = worker;
     worker.onmessage = (event: MessageEvent<FromWorker>) => this.#hear(event.data);
     worker.onerror = (event) => {
       event.preventDefault?.();
-      this.lose(crash(event.message ?? "the worker does not start"));
+      this.terminate(crash(event.message ?? "the worker does not start"));
     };
   }
 
   /** Whether the worker is gone: broken, stopped or closed. */
-  get lost(): boolean {
-    return this.#lost !== undefined;
+  get terminated(): boolean {
+    return this.#terminated !== undefined;
   }
 
   /** Does a task. The one before must have ended. */
   async run<T extends TaskName>(
     task: T,
-    ask: Tasks[T]["ask"],
+    request: Tasks[T]["request"],
     follow: Follow = {},
-  ): Promise<Tasks[T]["answer"]> {
+  ): Promise<Tasks[T]["response"]> {
     const { signal } = follow;
     signal?.throwIfAborted();
-    if (this.#lost) throw this.#lost;
+    if (this.#terminated) throw this.#terminated;
     let deadline: ReturnType<typeof setTimeout> | undefined;
     const cancel = () => {
       this.#worker.postMessage({ task: "cancel" } satisfies ToWorker);
-      deadline = setTimeout(() => this.lose(crash("a cancelled run did not end")), GRACE);
+      deadline = setTimeout(() => this.terminate(crash("a cancelled run did not end")), GRACE);
     };
     signal?.addEventListener("abort", cancel, { once: true });
     try {
-      return await new Promise<Tasks[T]["answer"]>((resolve, reject) => {
+      return await new Promise<Tasks[T]["response"]>((resolve, reject) => {
         this.#pending = { ...follow, resolve: resolve as Pending["resolve"], reject };
-        this.#worker.postMessage({ task, ask } as ToWorker);
+        this.#worker.postMessage({ task, request } as ToWorker);
       });
     } catch (error) {
       // However a cancelled task ends, it ends as the caller wished.
@@ -70,22 +70,22 @@ export class Connection {
   }
 
   /** Ends the worker and what it is doing. */
-  lose(reason: NormalightError): void {
-    if (this.#lost) return;
-    this.#lost = reason;
+  terminate(reason: NormalightError): void {
+    if (this.#terminated) return;
+    this.#terminated = reason;
     this.#worker.terminate();
     this.#pending?.reject(reason);
   }
 
   #hear(message: FromWorker): void {
     const pending = this.#pending;
-    switch (message.news) {
+    switch (message.event) {
       case "load":
       case "progress":
-        pending?.onNews?.(message);
+        pending?.onEvent?.(message);
         break;
       case "done":
-        pending?.resolve(message.answer);
+        pending?.resolve(message.response);
         break;
       case "failed": {
         const kind = message.kind === "cancelled" ? "crashed" : message.kind;
@@ -93,7 +93,7 @@ export class Connection {
         break;
       }
       case "crashed":
-        this.lose(crash(message.message));
+        this.terminate(crash(message.message));
     }
   }
 }

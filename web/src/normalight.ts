@@ -71,8 +71,8 @@ export class Normalight {
       },
       {
         signal,
-        onNews(news) {
-          if (news.news === "progress") onProgress?.(aggregate.at(news.stage, news.fraction));
+        onEvent(event) {
+          if (event.event === "progress") onProgress?.(aggregate.at(event.stage, event.fraction));
         },
       },
     );
@@ -94,18 +94,18 @@ export class Normalight {
   /** Ends the worker and all calls; the object is of no use any more. */
   close(): void {
     this.#closed = true;
-    this.#connection?.lose(closed());
+    this.#connection?.terminate(closed());
   }
 
   async #run<T extends TaskName>(
     task: T,
-    ask: Tasks[T]["ask"],
+    request: Tasks[T]["request"],
     follow: Follow = {},
-  ): Promise<Tasks[T]["answer"]> {
+  ): Promise<Tasks[T]["response"]> {
     const turn = this.#queue.then(async () => {
       follow.signal?.throwIfAborted();
       const connection = await this.#open();
-      return await connection.run(task, ask, follow);
+      return await connection.run(task, request, follow);
     });
     // A call that fails must not keep the next from its turn.
     this.#queue = turn.catch(() => undefined);
@@ -115,7 +115,7 @@ export class Normalight {
   /** The worker; a new one after a crash. */
   async #open(): Promise<Connection> {
     if (this.#closed) throw closed();
-    if (this.#connection && !this.#connection.lost) return this.#connection;
+    if (this.#connection && !this.#connection.terminated) return this.#connection;
     const { device = "auto" } = this.#options;
     try {
       return await this.#start(device);
@@ -137,7 +137,7 @@ export class Normalight {
     this.#device = await connection.run(
       "create",
       { device },
-      { onNews: (news) => news.news === "load" && this.#options.onLoad?.(news.fraction) },
+      { onEvent: (event) => event.event === "load" && this.#options.onLoad?.(event.fraction) },
     );
     return connection;
   }

@@ -20,19 +20,19 @@ export interface Settings {
   quality: Quality;
 }
 
-/** What the worker can be asked to do: the arguments and the answer of each task. */
+/** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
-  create: { ask: { device: DeviceChoice }; answer: DeviceReport };
-  plan: { ask: { files: readonly StackFile[] }; answer: Plan };
-  thumbnail: { ask: { file: StackFile; color: ColorMode; side: number }; answer: Thumbnail };
+  create: { request: { device: DeviceChoice }; response: DeviceReport };
+  plan: { request: { files: readonly StackFile[] }; response: Plan };
+  thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
   estimate: {
-    ask: {
+    request: {
       files: readonly StackFile[];
       mask: StackFile | undefined;
       lights: StackFile | undefined;
       settings: Settings;
     };
-    answer: Estimate;
+    response: Estimate;
   };
 }
 
@@ -40,12 +40,14 @@ export interface Tasks {
 export type TaskName = keyof Tasks;
 
 /** To the worker: one task, or the wish to stop the one under way. */
-export type ToWorker = { [T in TaskName]: { task: T; ask: Tasks[T]["ask"] } }[TaskName] | { task: "cancel" };
+export type ToWorker =
+  | { [T in TaskName]: { task: T; request: Tasks[T]["request"] } }[TaskName]
+  | { task: "cancel" };
 
-/** From the worker: news while a task runs, its end, or that the module is beyond repair. */
+/** From the worker: events while a task runs, its end, or that the module is beyond repair. */
 export type FromWorker =
-  | { news: "load"; fraction: number }
-  | { news: "progress"; stage: Stage; fraction: number }
-  | { news: "done"; answer: Tasks[TaskName]["answer"] }
-  | { news: "failed"; kind: "input" | "device" | "cancelled"; message: string }
-  | { news: "crashed"; message: string };
+  | { event: "load"; fraction: number }
+  | { event: "progress"; stage: Stage; fraction: number }
+  | { event: "done"; response: Tasks[TaskName]["response"] }
+  | { event: "failed"; kind: "input" | "device" | "cancelled"; message: string }
+  | { event: "crashed"; message: string };

@@ -20,37 +20,37 @@ let cancelled = false;
 
 scope.addEventListener("message", ({ data }) => {
   if (data.task === "cancel") cancelled = true;
-  else void answer(data);
+  else void respond(data);
 });
 
 // Calls into the module that were under way when it broke down never end by themselves.
 scope.addEventListener("unhandledrejection", ({ reason }) => crashed(String(reason)));
 
-async function answer(request: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
+async function respond(message: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
   cancelled = false;
   try {
-    const answer = await perform(request);
-    scope.postMessage({ news: "done", answer }, buffers(answer));
+    const response = await perform(message);
+    scope.postMessage({ event: "done", response }, buffers(response));
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) crashed(error.message);
-    else tell({ news: "failed", ...failure(error) });
+    else tell({ event: "failed", ...failure(error) });
   }
 }
 
-async function perform(request: Exclude<ToWorker, { task: "cancel" }>): Promise<Tasks[TaskName]["answer"]> {
-  module ??= load((fraction) => tell({ news: "load", fraction }), crashed);
+async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<Tasks[TaskName]["response"]> {
+  module ??= load((fraction) => tell({ event: "load", fraction }), crashed);
   const wasm = await module;
-  switch (request.task) {
+  switch (message.task) {
     case "create":
-      return await create(wasm, request.ask.device);
+      return await create(wasm, message.request.device);
     case "plan":
-      return wasm.plan(await Promise.all(request.ask.files.map(readText)));
+      return wasm.plan(await Promise.all(message.request.files.map(readText)));
     case "thumbnail": {
-      const { file, color, side } = request.ask;
+      const { file, color, side } = message.request;
       return wasm.thumbnail(await read(file), color, side);
     }
     case "estimate":
-      return await estimate(request.ask);
+      return await estimate(message.request);
   }
 }
 
@@ -68,18 +68,18 @@ async function create(wasm: Module, choice: DeviceChoice): Promise<DeviceReport>
   return device;
 }
 
-async function estimate(ask: Tasks["estimate"]["ask"]): Promise<Tasks["estimate"]["answer"]> {
+async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["estimate"]["response"]> {
   if (engine === undefined) throw new Error("no device was chosen");
   const files: NamedFile[] = [];
-  for (const file of ask.files) {
+  for (const file of request.files) {
     files.push(await read(file));
     if (cancelled) throw { kind: "cancelled", message: "cancelled" };
   }
-  const mask = ask.mask && (await read(ask.mask));
-  const lights = ask.lights && (await read(ask.lights));
-  return await engine.estimate(files, mask, lights, ask.settings, {
+  const mask = request.mask && (await read(request.mask));
+  const lights = request.lights && (await read(request.lights));
+  return await engine.estimate(files, mask, lights, request.settings, {
     async report(stage: string, fraction: number): Promise<boolean> {
-      tell({ news: "progress", stage: stage as Stage, fraction });
+      tell({ event: "progress", stage: stage as Stage, fraction });
       await yieldToEvents();
       return !cancelled;
     },
@@ -110,14 +110,14 @@ function failure(error: unknown): { kind: "input" | "device" | "cancelled"; mess
 }
 
 function crashed(message: string): void {
-  tell({ news: "crashed", message });
+  tell({ event: "crashed", message });
 }
 
 function tell(message: FromWorker): void {
   scope.postMessage(message, []);
 }
 
-/** The buffers in an answer: they are handed over instead of copied. */
+/** The buffers in a response: they are handed over instead of copied. */
 function buffers(value: unknown): ArrayBuffer[] {
   if (value instanceof Uint8Array) return [value.buffer as ArrayBuffer];
   return typeof value === "object" && value !== null ? Object.values(value).flatMap(buffers) : [];

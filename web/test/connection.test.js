@@ -25,13 +25,13 @@ function connect() {
   return { worker, connection: new Connection(worker) };
 }
 
-test("answers and news come back", async () => {
+test("responses and events come back", async () => {
   const { worker, connection } = connect();
   const heard = [];
-  const answer = connection.run("plan", { files: [] }, { onNews: (news) => heard.push(news.fraction) });
-  assert.deepEqual(worker.asked, [{ task: "plan", ask: { files: [] } }]);
-  worker.say({ news: "progress", stage: "lights", fraction: 0.5 });
-  worker.say({ news: "done", answer: { images: [1] } });
+  const answer = connection.run("plan", { files: [] }, { onEvent: (event) => heard.push(event.fraction) });
+  assert.deepEqual(worker.asked, [{ task: "plan", request: { files: [] } }]);
+  worker.say({ event: "progress", stage: "lights", fraction: 0.5 });
+  worker.say({ event: "done", response: { images: [1] } });
   assert.deepEqual(await answer, { images: [1] });
   assert.deepEqual(heard, [0.5]);
 });
@@ -39,9 +39,9 @@ test("answers and news come back", async () => {
 test("failures are typed", async () => {
   const { worker, connection } = connect();
   const answer = connection.run("plan", { files: [] });
-  worker.say({ news: "failed", kind: "input", message: "a.png: broken" });
+  worker.say({ event: "failed", kind: "input", message: "a.png: broken" });
   await assert.rejects(answer, new NormalightError("input", "a.png: broken"));
-  assert.equal(connection.lost, false);
+  assert.equal(connection.terminated, false);
 });
 
 test("a cancelled task rejects with the signal's reason", async () => {
@@ -50,9 +50,9 @@ test("a cancelled task rejects with the signal's reason", async () => {
   const answer = connection.run("estimate", {}, { signal: controller.signal });
   controller.abort(new Error("enough"));
   assert.deepEqual(worker.asked.at(-1), { task: "cancel" });
-  worker.say({ news: "failed", kind: "cancelled", message: "cancelled" });
+  worker.say({ event: "failed", kind: "cancelled", message: "cancelled" });
   await assert.rejects(answer, /enough/);
-  assert.equal(connection.lost, false);
+  assert.equal(connection.terminated, false);
 });
 
 test("a task that does not hear the cancel loses its worker", async (t) => {
@@ -64,13 +64,13 @@ test("a task that does not hear the cancel loses its worker", async (t) => {
   t.mock.timers.tick(3000);
   await assert.rejects(answer, { name: "AbortError" });
   assert.equal(worker.terminated, true);
-  assert.equal(connection.lost, true);
+  assert.equal(connection.terminated, true);
 });
 
 test("after a crash every task fails with its words", async () => {
   const { worker, connection } = connect();
   const answer = connection.run("plan", { files: [] });
-  worker.say({ news: "crashed", message: "index out of bounds" });
+  worker.say({ event: "crashed", message: "index out of bounds" });
   await assert.rejects(answer, { kind: "crashed", message: /index out of bounds/ });
   await assert.rejects(connection.run("plan", { files: [] }), { kind: "crashed" });
   assert.equal(worker.terminated, true);

@@ -17,7 +17,7 @@ class PlayedWorker {
   }
   postMessage(message) {
     this.asked.push(message);
-    const answer = answers[message.task]?.(message.ask, this);
+    const answer = answers[message.task]?.(message.request, this);
     if (answer) queueMicrotask(() => this.onmessage?.({ data: answer }));
   }
   terminate() {
@@ -31,8 +31,8 @@ afterEach(() => {
   answers = {};
 });
 
-const done = (answer) => ({ news: "done", answer });
-const crashed = { news: "crashed", message: "unreachable" };
+const done = (answer) => ({ event: "done", response: answer });
+const crashed = { event: "crashed", message: "unreachable" };
 const file = { name: "a.png", bytes: new Uint8Array() };
 const deviceOf = ({ device }) => done({ kind: device === "cpu" ? "cpu" : "gpu", name: device });
 
@@ -44,7 +44,7 @@ test("calls are done one after the other", async () => {
   await new Promise((resolve) => setTimeout(resolve, 5));
   const tasks = () => started[0].asked.map(({ task }) => task);
   assert.deepEqual(tasks(), ["create", "plan"]);
-  started[0].onmessage({ data: { news: "failed", kind: "input", message: "bad list" } });
+  started[0].onmessage({ data: { event: "failed", kind: "input", message: "bad list" } });
   await assert.rejects(plan, { kind: "input" });
   assert.equal(await thumbnail, "small");
   assert.deepEqual(tasks(), ["create", "plan", "thumbnail"]);
@@ -60,7 +60,7 @@ test("after a crash the next call gets a new worker", async () => {
 });
 
 test("a GPU that breaks at the start gives way to the processor", async () => {
-  answers = { create: (ask) => (ask.device === "cpu" ? deviceOf(ask) : crashed) };
+  answers = { create: (request) => (request.device === "cpu" ? deviceOf(request) : crashed) };
   const normalight = await Normalight.create({ device: "gpu" });
   assert.equal(normalight.device.kind, "cpu");
   assert.match(

@@ -2,8 +2,8 @@
 use crate::Outcome;
 use crate::args::EstimateArgs;
 use crate::choices::word;
-use crate::progress::{Follower, Spinner};
-use crate::settings::{Estimation, in_words};
+use crate::progress::{ProgressObserver, Spinner};
+use crate::settings::{Estimation, describe};
 use crate::terminal::print;
 use crate::{interrupt, outputs};
 use anyhow::{Context, Result, bail};
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
     let lights = read_lights(args, &input)?;
     let read = start.elapsed() - opened;
 
-    let mut follower = Follower::new("", args.quiet);
+    let mut follower = ProgressObserver::new("", args.quiet);
     let estimated = pollster::block_on(estimation.estimator.estimate(
         &input.stack,
         &input.mask,
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         inputs: input.picked_names(),
         width: input.stack.width(),
         height: input.stack.height(),
-        mask: input.mask_words().to_owned(),
+        mask: input.mask_label().to_owned(),
         color: ColorMode::from(args.color).to_string(),
         lights_from: lights_in_words(args),
         device: estimation.device.clone(),
@@ -140,7 +140,7 @@ fn lights_in_words(args: &EstimateArgs) -> String {
 
 fn settings(args: &EstimateArgs) -> serde_json::Value {
     let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
-    let mut settings = in_words(&args.estimation, args.lights.is_some());
+    let mut settings = describe(&args.estimation, args.lights.is_some());
     settings.extend([
         ("mask".to_owned(), path(&args.mask).into()),
         ("lights".to_owned(), path(&args.lights).into()),

@@ -2,8 +2,8 @@
 use crate::Outcome;
 use crate::args::EvaluateArgs;
 use crate::interrupt;
-use crate::progress::{Follower, Spinner};
-use crate::settings::{Estimation, in_words};
+use crate::progress::{ProgressObserver, Spinner};
+use crate::settings::{Estimation, describe};
 use crate::table::{Failure, Table};
 use crate::terminal::{note, print};
 use anyhow::{Result, bail};
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
         device: estimation.device.clone(),
         weights: estimation.hashes(args.calibrated),
         parameters: estimation.estimator.parameters(),
-        settings: in_words(&args.estimation, args.calibrated),
+        settings: describe(&args.estimation, args.calibrated),
         tables: Vec::new(),
     };
     print(&heading(&evaluation))?;
@@ -129,7 +129,7 @@ fn measure_object(
     } else {
         LightsFrom::Photographs
     };
-    let mut follower = Follower::new(format!("{}: ", object.name), args.quiet);
+    let mut follower = ProgressObserver::new(format!("{}: ", object.name), args.quiet);
     let estimator = &estimation.estimator;
     let settings = estimation.settings;
     Ok(evaluate_object(

@@ -41,7 +41,7 @@ impl Drop for Spinner {
 }
 
 /// Shows how far the pipeline is, takes the times of its stages, and stops it at Ctrl-C.
-pub(crate) struct Follower {
+pub(crate) struct ProgressObserver {
     bar: ProgressBar,
     /// Stands before the stage's name.
     prefix: String,
@@ -49,7 +49,7 @@ pub(crate) struct Follower {
     times: StageTimes,
 }
 
-impl Follower {
+impl ProgressObserver {
     pub(crate) fn new(prefix: impl Into<String>, quiet: bool) -> Self {
         Self {
             bar: bar(FINE, "{msg:32} [{bar:30}] {percent:>3} %", quiet),
@@ -72,7 +72,7 @@ impl Follower {
     }
 }
 
-impl Observer for Follower {
+impl Observer for ProgressObserver {
     async fn report(&mut self, progress: Progress) -> ControlFlow<()> {
         self.times
             .note(progress, self.start.elapsed().as_secs_f64());
@@ -84,7 +84,7 @@ impl Observer for Follower {
     }
 }
 
-impl Drop for Follower {
+impl Drop for ProgressObserver {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

@@ -12,7 +12,7 @@ use normalight_io::{
 };
 use normalight_synth::{Framing, Renderer, Sample};
 use rayon::prelude::*;
-use sheet::Sheet;
+use sheet::ContactSheet;
 use statistics::Statistics;
 use std::path::Path;
 
@@ -47,7 +47,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
         .context("--first and --count: numbers end at 18446744073709551615")?;
     let mut done = Stacks {
         written: 0,
-        sheet: args.sheet.then(|| Sheet::new(args.size as usize)),
+        sheet: args.sheet.then(|| ContactSheet::new(args.size as usize)),
         statistics: args.stats.then(Statistics::default),
     };
     let worked: Result<()> = (args.first..end)
@@ -91,7 +91,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
 /// What becomes of the stacks.
 struct Stacks {
     written: usize,
-    sheet: Option<Sheet>,
+    sheet: Option<ContactSheet>,
     statistics: Option<Statistics>,
 }
 
@@ -178,7 +178,7 @@ fn write(
         .with_context(|| format!("stack {number}"))
 }
 
-fn write_sheet(folder: &Path, sheet: &Sheet) -> Result<()> {
+fn write_sheet(folder: &Path, sheet: &ContactSheet) -> Result<()> {
     let picture = photograph_png(&sheet.to_image())?;
     Ok(OutputFolder::prepare(folder)?.write(&[("sheet.png", picture)])?)
 }

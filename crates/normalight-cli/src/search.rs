@@ -5,7 +5,7 @@ use crate::args::{DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
 use crate::choices::DeviceChoice;
 use crate::monitor::Monitor;
 use crate::terminal::{note, print};
-use crate::train::in_words;
+use crate::train::describe;
 use crate::{Outcome, device, interrupt, search_recipe};
 use anyhow::{Context, Result, bail};
 use normalight_io::write_files;
@@ -69,7 +69,7 @@ fn find(args: &SearchArgs, recipe: SearchRecipe) -> Result<Outcome> {
         let genotype = args.run.join("genotype.json");
         print(&format!(
             "{}genotype: {}\n",
-            in_words(&summary),
+            describe(&summary),
             genotype.display()
         ))?;
     }

@@ -46,7 +46,7 @@ impl Estimation {
 
 /// The settings as the command line names them, for reports. Lights that were given are never
 /// refitted.
-pub(crate) fn in_words(
+pub(crate) fn describe(
     args: &EstimationArgs,
     lights_given: bool,
 ) -> serde_json::Map<String, serde_json::Value> {

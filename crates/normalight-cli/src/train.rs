@@ -75,11 +75,11 @@ fn recipe(args: &TrainArgs) -> Result<TrainRecipe> {
 
 /// What a person wants to know at the end.
 fn result(summary: &Summary, weights: &Path) -> String {
-    format!("{}weights: {}\n", in_words(summary), weights.display())
+    format!("{}weights: {}\n", describe(summary), weights.display())
 }
 
 /// Error and hours of a run.
-pub(crate) fn in_words(summary: &Summary) -> String {
+pub(crate) fn describe(summary: &Summary) -> String {
     let best = match &summary.best {
         Some(best) => format!("{:.2} degrees at step {}", best.degrees, best.step),
         None => "none".to_owned(),

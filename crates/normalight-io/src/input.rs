@@ -58,12 +58,12 @@ impl StackInput {
     }
 
     /// Where the mask came from, in words or by its file name: for people and for the report.
-    pub fn mask_words(&self) -> &str {
-        mask_words(&self.mask_source)
+    pub fn mask_label(&self) -> &str {
+        mask_label(&self.mask_source)
     }
 }
 
-pub(crate) fn mask_words(source: &MaskSource) -> &str {
+pub(crate) fn mask_label(source: &MaskSource) -> &str {
     match source {
         MaskSource::File(name) => name,
         MaskSource::Alpha => "transparency of the first image",

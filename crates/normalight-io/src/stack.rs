@@ -1,7 +1,7 @@
 //! From files to a stack; where the bytes come from is the caller's affair.
 use crate::decode::{decode_image, decode_mask};
 use crate::format::{base_name, is_foreign, not_an_image};
-use crate::input::mask_words;
+use crate::input::mask_label;
 use crate::limits::{MAX_STACK_BYTES, MAX_TEXT_BYTES};
 use crate::plan::{StackPlan, find_list, plan_stack};
 use crate::{IoError, MaskChoice, NamedBytes, ReadOptions, StackInput};
@@ -142,7 +142,7 @@ fn pick(
 }
 
 fn check_mask(stack: &ImageStack, mask: &Mask, source: &MaskSource) -> Result<(), IoError> {
-    let name = mask_words(source);
+    let name = mask_label(source);
     let checked = stack.check_mask(mask, name);
     // A guess finds nothing only where there is no light: say that instead.
     if *source == MaskSource::Guessed && checked.is_err() {

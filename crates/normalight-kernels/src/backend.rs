@@ -7,14 +7,14 @@ use crate::cpu::buffer::Buffer;
 use crate::cpu::depthwise::Depthwise;
 use crate::cpu::geometry::Geometry;
 use crate::cpu::normalise::{self, Moments};
-use crate::cpu::{convolution, most, transposed};
+use crate::cpu::{convolution, max_over_images, transposed};
 use burn::backend::tensor::FloatTensor;
 use burn::backend::{Backend, Flex, TensorMetadata, backend_extension};
 use burn::tensor::{DType, TensorData};
 
 /// Our operations, by backend; the functions of this crate's root describe them.
 #[backend_extension(Flex, Autodiff: cfg(feature = "autodiff"))]
-pub(crate) trait Kernels: Backend {
+pub(crate) trait KernelBackend: Backend {
     fn convolution(
         input: FloatTensor<Self>,
         weight: FloatTensor<Self>,
@@ -124,11 +124,12 @@ fn moments(mean: &FlexTensor, variance: &FlexTensor) -> Moments {
 fn max_with_index(input: &FlexTensor, samples: usize) -> (FlexTensor, Vec<u32>) {
     let [rows, height, width, channels] = dims(input);
     let size = height * width * channels;
-    let (most, which) = most::forward(input.to_contiguous().storage(), rows / samples, size);
+    let (most, which) =
+        max_over_images::forward(input.to_contiguous().storage(), rows / samples, size);
     (tensor(most, &[samples, height, width, channels]), which)
 }
 
-impl Kernels for Flex {
+impl KernelBackend for Flex {
     fn convolution(
         input: FlexTensor,
         weight: FlexTensor,

@@ -5,7 +5,7 @@ pub(crate) mod convolution;
 pub(crate) mod depthwise;
 pub(crate) mod direct;
 pub(crate) mod geometry;
-pub(crate) mod most;
+pub(crate) mod max_over_images;
 pub(crate) mod normalise;
 pub(crate) mod orthogonalise;
 pub(crate) mod product;

@@ -1,6 +1,6 @@
 //! Closed-form parameter and operation counts, written independently of the layers so that tests can compare.
 
-use crate::placement::{CellPlacement, light_placements, normal_placements};
+use crate::cell_site::{CellSite, light_cell_sites, normal_cell_sites};
 use crate::{
     Cell, LightArchitecture, LightBody, NormalArchitecture, NormalBody, Operation, Upsampling,
 };
@@ -50,7 +50,7 @@ pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
             let genotype = &cells.genotype;
             let [first, second] = cells.stem_strides.map(|stride| stride * stride);
             let stem = area / (first * second);
-            let [features, classifier] = light_placements(cells, area);
+            let [features, classifier] = light_cell_sites(cells, area);
             let channels = last_channels(&features, &genotype.cells());
             let after = last_channels(&classifier, &genotype.cells());
             let stride: usize = cells.stem_strides.iter().product();
@@ -111,7 +111,7 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
                 },
                 Upsampling::Nearest => conv(from, to, area),
             };
-            let [features, regressor] = normal_placements(cells, area);
+            let [features, regressor] = normal_cell_sites(cells, area);
             let channels = last_channels(&features, &genotype.cells());
             let half = area / 4;
             let first_up = match cells.doublings() {
@@ -178,13 +178,13 @@ impl Sum for Cost {
 }
 
 /// Channels that a row of cells leaves.
-fn last_channels(row: &[CellPlacement], cells: &[&Cell]) -> usize {
+fn last_channels(row: &[CellSite], cells: &[&Cell]) -> usize {
     row.last()
         .map_or(0, |last| cells[last.cell].nodes.len() * last.width)
 }
 
 /// A row of cells on a stem of three times their first width.
-fn cell_row(row: &[CellPlacement], cells: &[&Cell]) -> Cost {
+fn cell_row(row: &[CellSite], cells: &[&Cell]) -> Cost {
     let stem = row.first().map_or(0, |first| 3 * first.width);
     let (mut before_last, mut last) = (stem, stem);
     let mut total = Cost::default();
@@ -205,7 +205,7 @@ fn cell_row(row: &[CellPlacement], cells: &[&Cell]) -> Cost {
 }
 
 /// What an operation costs on an edge from `from` of a cell that stands there.
-pub fn operation_cost(operation: Operation, place: &CellPlacement, from: usize) -> Cost {
+pub fn operation_cost(operation: Operation, place: &CellSite, from: usize) -> Cost {
     let strided = place.reduces && from < 2;
     self::operation(operation, place.width, strided, place.area)
 }
@@ -312,7 +312,7 @@ mod tests {
                 hidden: 1,
                 genotype: light.clone(),
             };
-            let rows = light_placements(&cells, 0).map(|row| cell_row(&row, &light.cells()));
+            let rows = light_cell_sites(&cells, 0).map(|row| cell_row(&row, &light.cells()));
             let count = rows.map(|row| thousands(row.parameters));
             assert_eq!(count, [features, classifier]);
             let cells = CellNormal {
@@ -323,7 +323,7 @@ mod tests {
                 fused_convolutions: 1,
                 genotype: normal.clone(),
             };
-            let rows = normal_placements(&cells, 0).map(|row| cell_row(&row, &normal.cells()));
+            let rows = normal_cell_sites(&cells, 0).map(|row| cell_row(&row, &normal.cells()));
             let count = rows.map(|row| thousands(row.parameters));
             assert_eq!(count, [normal_features, regressor]);
         }

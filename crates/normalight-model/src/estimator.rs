@@ -1,4 +1,4 @@
-use crate::observer::{Observer, Stage, report};
+use crate::observer::{Observer, PipelineStage, report};
 use crate::{
     LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Quality, Weights,
     light_cost, normal_cost,
@@ -100,7 +100,7 @@ impl Estimator {
                 self.light.estimate(stack, mask, options, observer).await?
             }
         };
-        let mut stage = Stage::Normals;
+        let mut stage = PipelineStage::Normals;
         if let (Some(refit), None) = (settings.refit, given) {
             let views = settings.quality.refit_views();
             let calibrated = CalibratedStack::new(stack, mask, &lights)?;
@@ -108,9 +108,9 @@ impl Estimator {
                 .normal
                 .estimate(calibrated, views, stage, observer)
                 .await?;
-            report(observer, Stage::Refit, 0.0).await?;
+            report(observer, PipelineStage::Refit, 0.0).await?;
             lights = refit_lights(stack, mask, &normals, &lights, refit)?;
-            stage = Stage::FinalNormals;
+            stage = PipelineStage::FinalNormals;
         }
         let views = settings.quality.views();
         let calibrated = CalibratedStack::new(stack, mask, &lights)?;
@@ -118,7 +118,7 @@ impl Estimator {
             .normal
             .estimate(calibrated, views, stage, observer)
             .await?;
-        report(observer, Stage::Albedo, 0.0).await?;
+        report(observer, PipelineStage::Albedo, 0.0).await?;
         let albedo = albedo_map(stack, mask, &normals, &lights)?;
         Ok(Estimate {
             lights,

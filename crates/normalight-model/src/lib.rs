@@ -10,6 +10,7 @@
 mod architecture;
 mod auxiliary_tower;
 mod cell;
+mod cell_site;
 mod cost;
 mod defaults;
 mod error;
@@ -27,7 +28,6 @@ mod normal_network;
 mod normal_stage;
 mod observer;
 mod operation;
-mod placement;
 mod quality;
 mod relaxation;
 mod search_space;
@@ -38,6 +38,7 @@ pub use architecture::{
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
 pub use auxiliary_tower::AuxiliaryTower;
+pub use cell_site::{CellSite, light_cell_sites, normal_cell_sites};
 pub use cost::{Cost, NetworkCost, light_cost, normal_cost, operation_cost};
 pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;
@@ -49,9 +50,8 @@ pub use light_stage::LightOptions;
 pub use light_view::LightView;
 pub use loaded::{LoadedLightNetwork, LoadedNetwork, LoadedNormalNetwork};
 pub use normal_network::{FusedFeatures, NormalNetwork};
-pub use observer::{Observer, Progress, Quiet, Stage, StageTimes};
+pub use observer::{NoopObserver, Observer, PipelineStage, Progress, StageTimes};
 pub use operation::OperationLayer;
-pub use placement::{CellPlacement, light_placements, normal_placements};
 pub use quality::Quality;
 pub use relaxation::{CellWeights, Relaxation};
 pub use search_space::SearchSpace;

@@ -1,4 +1,4 @@
-use crate::observer::{Observer, Stage, report};
+use crate::observer::{Observer, PipelineStage, report};
 use crate::{LightInput, LightView, LoadedLightNetwork, ModelError, Quality};
 use burn::tensor::{Tensor, TensorData, activation};
 use normalight_core::{Decoding, ImageStack, Light, Mask};
@@ -57,7 +57,7 @@ impl LoadedLightNetwork {
                 *sum += value / views.len() as f32;
             }
         }
-        report(observer, Stage::Lights, 1.0).await?;
+        report(observer, PipelineStage::Lights, 1.0).await?;
         let lights = probabilities.chunks_exact(bins.classes()).map(|row| {
             let (azimuth, rest) = row.split_at(bins.azimuth);
             let (elevation, intensity) = rest.split_at(bins.elevation);
@@ -145,7 +145,7 @@ impl Look<'_> {
         observer: &mut impl Observer,
     ) -> Result<Tensor<4>, ModelError> {
         let fraction = self.done as f32 / self.steps as f32;
-        report(observer, Stage::Lights, fraction).await?;
+        report(observer, PipelineStage::Lights, fraction).await?;
         self.done += images.len();
         let size = self.view.size();
         let shape = [images.len(), size, size, LightInput::CHANNELS];

@@ -1,5 +1,5 @@
 use crate::light_stage::read_back;
-use crate::observer::{Observer, Stage, report};
+use crate::observer::{Observer, PipelineStage, report};
 use crate::{FusedFeatures, LoadedNormalNetwork, ModelError, NormalInput, NormalNetwork};
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{CalibratedStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
@@ -31,7 +31,7 @@ impl LoadedNormalNetwork {
         &self,
         calibrated: CalibratedStack<'_>,
         views: &[Symmetry],
-        stage: Stage,
+        stage: PipelineStage,
         observer: &mut impl Observer,
     ) -> Result<NormalMap, ModelError> {
         let (stack, mask) = (calibrated.stack(), calibrated.mask());

@@ -3,7 +3,7 @@ use std::ops::ControlFlow;
 
 /// What the pipeline is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Stage {
+pub enum PipelineStage {
     /// The light network looks at every photograph.
     Lights,
     /// The normal network looks at every photograph.
@@ -16,15 +16,15 @@ pub enum Stage {
     Albedo,
 }
 
-impl Stage {
+impl PipelineStage {
     /// A name for people and reports.
     pub fn name(self) -> &'static str {
         match self {
-            Stage::Lights => "lights",
-            Stage::Normals => "normals",
-            Stage::Refit => "refit",
-            Stage::FinalNormals => "final normals",
-            Stage::Albedo => "albedo",
+            PipelineStage::Lights => "lights",
+            PipelineStage::Normals => "normals",
+            PipelineStage::Refit => "refit",
+            PipelineStage::FinalNormals => "final normals",
+            PipelineStage::Albedo => "albedo",
         }
     }
 }
@@ -33,7 +33,7 @@ impl Stage {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// The stage under way.
-    pub stage: Stage,
+    pub stage: PipelineStage,
     /// Share of the stage that is done, 0..1.
     pub fraction: f32,
 }
@@ -53,7 +53,7 @@ pub trait Observer {
 /// [`ModelError::Cancelled`] when it says stop.
 pub(crate) async fn report(
     observer: &mut impl Observer,
-    stage: Stage,
+    stage: PipelineStage,
     fraction: f32,
 ) -> Result<(), ModelError> {
     match observer.report(Progress { stage, fraction }).await {
@@ -64,9 +64,9 @@ pub(crate) async fn report(
 
 /// An observer that never looks and never stops.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Quiet;
+pub struct NoopObserver;
 
-impl Observer for Quiet {
+impl Observer for NoopObserver {
     async fn report(&mut self, _progress: Progress) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -76,8 +76,8 @@ impl Observer for Quiet {
 /// different ones.
 #[derive(Debug, Clone, Default)]
 pub struct StageTimes {
-    current: Option<(Stage, f64)>,
-    finished: Vec<(Stage, f64)>,
+    current: Option<(PipelineStage, f64)>,
+    finished: Vec<(PipelineStage, f64)>,
 }
 
 impl StageTimes {
@@ -93,7 +93,7 @@ impl StageTimes {
     }
 
     /// Ends the last stage and returns all of them with their seconds, in order.
-    pub fn finish(&mut self, now: f64) -> &[(Stage, f64)] {
+    pub fn finish(&mut self, now: f64) -> &[(PipelineStage, f64)] {
         if let Some((stage, start)) = self.current.take() {
             self.finished.push((stage, now - start));
         }
@@ -109,15 +109,15 @@ mod tests {
     fn stages_are_timed_in_order() {
         let mut times = StageTimes::default();
         for (stage, fraction, now) in [
-            (Stage::Lights, 0.0, 1.0),
-            (Stage::Lights, 1.0, 2.0),
-            (Stage::Normals, 0.0, 2.5),
+            (PipelineStage::Lights, 0.0, 1.0),
+            (PipelineStage::Lights, 1.0, 2.0),
+            (PipelineStage::Normals, 0.0, 2.5),
         ] {
             times.note(Progress { stage, fraction }, now);
         }
         assert_eq!(
             times.finish(7.5),
-            [(Stage::Lights, 1.5), (Stage::Normals, 5.0)]
+            [(PipelineStage::Lights, 1.5), (PipelineStage::Normals, 5.0)]
         );
     }
 }

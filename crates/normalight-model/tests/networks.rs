@@ -7,8 +7,8 @@ use normalight_core::{
 };
 use normalight_model::{
     CellLight, CellNormal, EstimateSettings, Estimator, LightArchitecture, LightBody, LightNetwork,
-    ModelError, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Quiet, Upsampling,
-    Weights, light_cost, normal_cost, paper_genotypes,
+    ModelError, NoopObserver, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal,
+    Upsampling, Weights, light_cost, normal_cost, paper_genotypes,
 };
 use std::collections::BTreeMap;
 
@@ -240,7 +240,7 @@ fn both_backends_give_one_answer() {
     };
     let run = |device: Device| {
         let estimator = Estimator::new(&light, &normal, device).unwrap();
-        let mut observer = Quiet;
+        let mut observer = NoopObserver;
         let estimate = estimator.estimate(&stack, &mask, None, settings, &mut observer);
         pollster::block_on(estimate).unwrap()
     };

@@ -7,8 +7,8 @@ use normalight_core::{
 };
 use normalight_model::{
     EstimateSettings, Estimator, LightArchitecture, LightNetwork, LoadedNetwork,
-    LoadedNormalNetwork, ModelError, NormalArchitecture, NormalNetwork, Observer, Progress,
-    Quality, Quiet, Stage, Weights,
+    LoadedNormalNetwork, ModelError, NoopObserver, NormalArchitecture, NormalNetwork, Observer,
+    PipelineStage, Progress, Quality, Weights,
 };
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -143,7 +143,7 @@ impl Untrained {
         let calibrated = CalibratedStack::new(&stack, &mask, &scene.lights)?;
         let estimated = self
             .loaded
-            .estimate(calibrated, views, Stage::Normals, observer);
+            .estimate(calibrated, views, PipelineStage::Normals, observer);
         let map = pollster::block_on(estimated)?;
         let rows = map.normals().chunks_exact(map.width());
         Ok(rows.map(<[Vec3]>::to_vec).collect())
@@ -167,7 +167,11 @@ fn all_views_are_the_mean_over_turned_photographs() {
         let mut sum = vec![vec![Vec3::ZERO; scene.inside[0].len()]; scene.inside.len()];
         for symmetry in Symmetry::ALL {
             let view = untrained
-                .normals(&scene.turned(symmetry), &[Symmetry::NONE], &mut Quiet)
+                .normals(
+                    &scene.turned(symmetry),
+                    &[Symmetry::NONE],
+                    &mut NoopObserver,
+                )
                 .unwrap();
             let back = turned_back(symmetry, view);
             for (sum, normal) in sum.iter_mut().flatten().zip(back.concat()) {
@@ -178,16 +182,16 @@ fn all_views_are_the_mean_over_turned_photographs() {
             *normal = normal.normalize_or_zero();
         }
         let views = Quality::Best.views();
-        let mean = untrained.normals(&scene, views, &mut Quiet).unwrap();
+        let mean = untrained.normals(&scene, views, &mut NoopObserver).unwrap();
         assert!(furthest(&mean, &sum) < 1e-4, "{}", furthest(&mean, &sum));
         let one = untrained
-            .normals(&scene, Quality::Fast.views(), &mut Quiet)
+            .normals(&scene, Quality::Fast.views(), &mut NoopObserver)
             .unwrap();
         assert!(furthest(&mean, &one) > 0.01, "the views are all alike");
         // So turned photographs give turned normals.
         let turn = Symmetry::ALL[5];
         let there = untrained
-            .normals(&scene.turned(turn), views, &mut Quiet)
+            .normals(&scene.turned(turn), views, &mut NoopObserver)
             .unwrap();
         let mut back = turned_back(turn, there);
         for normal in back.iter_mut().flatten() {
@@ -228,7 +232,7 @@ fn one_view_is_the_bare_network() {
     let output = network.regress(fused).into_data();
     let output = output.try_to_vec::<f32>().unwrap();
     let found = untrained
-        .normals(&scene, Quality::Fast.views(), &mut Quiet)
+        .normals(&scene, Quality::Fast.views(), &mut NoopObserver)
         .unwrap();
     let places = found.iter().flatten().zip(output.chunks_exact(3));
     for ((found, expected), inside) in places.zip(scene.inside.concat()) {
@@ -249,7 +253,7 @@ fn copies_of_the_photographs_change_nothing() {
     let untrained = Untrained::new();
     let [few, many] = [&scene, &copies].map(|scene| {
         let views = Quality::Default.views();
-        untrained.normals(scene, views, &mut Quiet).unwrap()
+        untrained.normals(scene, views, &mut NoopObserver).unwrap()
     });
     assert!(furthest(&few, &many) < 1e-4, "{}", furthest(&few, &many));
 }
@@ -313,7 +317,7 @@ fn mirrored_photographs_give_mirrored_lights() {
             ..EstimateSettings::default()
         };
         let [one, two] = [scene.clone(), scene.turned(mirror)].map(|scene| {
-            let (stack, mask, mut quiet) = (scene.stack(), scene.mask(), Quiet);
+            let (stack, mask, mut quiet) = (scene.stack(), scene.mask(), NoopObserver);
             let found = estimator.estimate(&stack, &mask, None, settings, &mut quiet);
             pollster::block_on(found).unwrap().lights
         });

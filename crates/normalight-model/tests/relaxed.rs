@@ -4,7 +4,7 @@ use burn::module::{Module, ModuleMapper, Param};
 use burn::tensor::{Device, Distribution, Tensor, TensorData};
 use normalight_model::{
     Cell, CellNormal, Edge, NormalArchitecture, NormalBody, NormalGenotype, NormalNetwork,
-    Operation, SearchSpace, Upsampling, normal_cost, normal_placements, operation_cost,
+    Operation, SearchSpace, Upsampling, normal_cell_sites, normal_cost, operation_cost,
 };
 
 fn architecture(reductions: usize, genotype: NormalGenotype) -> NormalArchitecture {
@@ -148,7 +148,7 @@ fn expected_cost_of_a_choice_is_its_cost() {
             unreachable!()
         };
         let mut costs = vec![vec![vec![0.0; 6]; 2]; 3];
-        for place in normal_placements(cells, 32 * 32).concat() {
+        for place in normal_cell_sites(cells, 32 * 32).concat() {
             for (from, edge) in costs[place.cell].iter_mut().enumerate() {
                 for (cost, &operation) in edge.iter_mut().zip(&all.operations) {
                     *cost += operation_cost(operation, &place, from).parameters as f32;

@@ -1,13 +1,13 @@
 //! What things are made of and how it shines.
 mod brdf;
+mod material;
 mod measured;
-mod paint;
 mod pattern;
 mod surfaces;
 
 pub(crate) use brdf::shade;
+pub(crate) use material::Material;
 pub(crate) use measured::Measured;
-pub(crate) use paint::Paint;
 pub(crate) use surfaces::Surfaces;
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use crate::SynthError;
 use crate::materials::Measured;
 use crate::recipe::SceneRecipe;
 use crate::sample::Sample;
-use crate::scene::{Scene, Stage};
+use crate::scene::{Scene, SceneContext};
 use crate::shapes::{Library, check_apart};
 
 /// What part of the object a sample shows.
@@ -114,7 +114,7 @@ impl Renderer {
     /// `images` or `size` is zero.
     pub fn whole_scene(&self, number: u64, images: usize, size: usize) -> Scene {
         assert!(images > 0 && size > 0, "a scene needs lamps and pixels");
-        Scene::of_whole(&self.stage(number), images, size)
+        Scene::of_whole(&self.context(number), images, size)
     }
 
     /// The scene that crops number `crops_per_scene * number` and following are cut from. It has the
@@ -125,11 +125,11 @@ impl Renderer {
     pub fn crop_scene(&self, number: u64, images: usize, size: usize) -> Scene {
         assert!(images > 0 && size > 0, "a scene needs lamps and pixels");
         let lamps = self.recipe.sampling.lights_per_scene.max(images);
-        Scene::for_crops(&self.stage(number), lamps, size)
+        Scene::for_crops(&self.context(number), lamps, size)
     }
 
-    fn stage(&self, seed: u64) -> Stage<'_> {
-        Stage {
+    fn context(&self, seed: u64) -> SceneContext<'_> {
+        SceneContext {
             recipe: &self.recipe,
             meshes: &self.meshes,
             measured: &self.measured,
@@ -143,7 +143,7 @@ mod tests {
     use super::*;
     use crate::{MaterialRecipe, Preset};
 
-    /// Measured and modelled substances on one object, patterns and brushing on both.
+    /// Measured and modelled layers on one object, patterns and brushing on both.
     #[test]
     fn mixtures_of_measured_and_modelled_materials_give_pictures() {
         let recipe = SceneRecipe {

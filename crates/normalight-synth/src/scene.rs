@@ -11,7 +11,7 @@ pub(crate) use points::Points;
 
 use crate::camera::{Camera, Visible};
 use crate::lighting::{Bounces, Lamp, Shadows, lamps, narrow, open_sky, tinted};
-use crate::materials::{Measured, Paint, Surfaces, shade};
+use crate::materials::{Material, Measured, Surfaces, shade};
 use crate::random::{Random, Stream};
 use crate::recipe::{SceneRecipe, TransportRecipe};
 use crate::sample::Sample;
@@ -30,7 +30,7 @@ const MOST_ATTEMPTS: usize = 16;
 const LARGEST_SIDE: usize = 640;
 
 /// What the drawing of a scene starts from.
-pub(crate) struct Stage<'a> {
+pub(crate) struct SceneContext<'a> {
     pub(crate) recipe: &'a SceneRecipe,
     pub(crate) meshes: &'a Library,
     pub(crate) measured: &'a [Measured],
@@ -64,36 +64,36 @@ pub struct Scene {
 
 impl Scene {
     /// The whole object in a square of `side` pixels.
-    pub(crate) fn of_whole(stage: &Stage, lamps: usize, side: usize) -> Self {
-        let random = Random::new(stage.seed, Stream::Framing);
-        let (object, view) = Self::draw(stage, &random, side);
-        Self::render(stage, &object, view, None, lamps)
+    pub(crate) fn of_whole(context: &SceneContext, lamps: usize, side: usize) -> Self {
+        let random = Random::new(context.seed, Stream::Framing);
+        let (object, view) = Self::draw(context, &random, side);
+        Self::render(context, &object, view, None, lamps)
     }
 
     /// An object large enough to cut crops of `size` pixels from.
-    pub(crate) fn for_crops(stage: &Stage, lamps: usize, size: usize) -> Self {
-        let [low, high] = stage.recipe.shapes.crop_object_pixels;
-        let mut random = Random::new(stage.seed, Stream::Framing);
+    pub(crate) fn for_crops(context: &SceneContext, lamps: usize, size: usize) -> Self {
+        let [low, high] = context.recipe.shapes.crop_object_pixels;
+        let mut random = Random::new(context.seed, Stream::Framing);
         let mut side = (random.log_range(low, high) as usize).max(size);
         let largest = LARGEST_SIDE.max(size);
-        let (object, mut view) = Self::draw(stage, &random, side);
+        let (object, mut view) = Self::draw(context, &random, side);
         loop {
             let crops = Crops::new(&view, size);
             if crops.best_cover() >= MIN_COVER || side >= largest {
-                return Self::render(stage, &object, view, Some(crops), lamps);
+                return Self::render(context, &object, view, Some(crops), lamps);
             }
             side = ((side as f32 * NEARER) as usize).min(largest);
-            view = frame(&object, &stage.recipe.shapes, &mut random.clone(), side);
+            view = frame(&object, &context.recipe.shapes, &mut random.clone(), side);
         }
     }
 
     /// An object of which something is seen: a flat mesh may stand edge-on, then another one is drawn.
-    fn draw<'a>(stage: &Stage<'a>, framing: &Random, side: usize) -> (Object<'a>, View) {
-        let shapes = &stage.recipe.shapes;
-        let mut random = Random::new(stage.seed, Stream::Shape);
+    fn draw<'a>(context: &SceneContext<'a>, framing: &Random, side: usize) -> (Object<'a>, View) {
+        let shapes = &context.recipe.shapes;
+        let mut random = Random::new(context.seed, Stream::Shape);
         let mut attempts = 0;
         loop {
-            let object = object(shapes, stage.meshes, &mut random);
+            let object = object(shapes, context.meshes, &mut random);
             let view = frame(&object, shapes, &mut framing.clone(), side);
             attempts += 1;
             let seen = (0..view.depth.len()).any(|pixel| view.is_inside(pixel));
@@ -104,27 +104,27 @@ impl Scene {
     }
 
     fn render(
-        stage: &Stage,
+        context: &SceneContext,
         object: &Object,
         mut view: View,
         crops: Option<Crops>,
         lamp_count: usize,
     ) -> Self {
-        let recipe = stage.recipe;
-        let mut random = Random::new(stage.seed, Stream::Overlay);
+        let recipe = context.recipe;
+        let mut random = Random::new(context.seed, Stream::Overlay);
         let is_mesh = matches!(object, Object::Mesh(_));
         let overlay = Overlay::draw(&recipe.shapes, &mut random, is_mesh, view.window.pitch);
         let grooves = overlay.apply(&mut view);
         let points = Points::new(&view).with_grooves(&grooves);
-        let mut random = Random::new(stage.seed, Stream::Material);
-        let paint = Paint::draw(&recipe.materials, stage.measured, &mut random);
-        let surfaces = Surfaces::new(&paint, &points.places, &points.normals);
+        let mut random = Random::new(context.seed, Stream::Material);
+        let material = Material::draw(&recipe.materials, context.measured, &mut random);
+        let surfaces = Surfaces::new(&material, &points.places, &points.normals);
         let transport = Transport::draw(&recipe.transport, &mut random);
-        let mut random = Random::new(stage.seed, Stream::Lights);
+        let mut random = Random::new(context.seed, Stream::Lights);
         let lamps = lamps(&recipe.lights, &mut random, lamp_count, object.reach());
-        let radiance = transport.light(&view, &points, &surfaces, paint.measured(), &lamps);
+        let radiance = transport.light(&view, &points, &surfaces, material.measured(), &lamps);
         let ambient = (transport.ambient > 0.0).then(|| ambient(&points, &surfaces, &transport));
-        let seed = stage.seed;
+        let seed = context.seed;
         let mut scene = Self::new(seed, recipe, view, crops, &points.pixels, lamps, radiance);
         scene.ambient = ambient;
         scene

@@ -9,7 +9,8 @@ use normalight_core::{
     intensity_error, mean_light_error, normal_error, refit_lights,
 };
 use normalight_model::{
-    EstimateSettings, Estimator, LightOptions, Quality, Quiet, Stage, Weights, default_weights,
+    EstimateSettings, Estimator, LightOptions, NoopObserver, PipelineStage, Quality, Weights,
+    default_weights,
 };
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::error::Error;
@@ -71,7 +72,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut degrees = [0.0; 2];
         for number in FIRST..FIRST + objects {
             let sample = object(number);
-            let (stack, mask, mut quiet) = (sample.to_stack()?, sample.to_mask(), Quiet);
+            let (stack, mask, mut quiet) = (sample.to_stack()?, sample.to_mask(), NoopObserver);
             let estimate = estimator.estimate(&stack, &mask, None, settings, &mut quiet);
             let found = pollster::block_on(estimate)?;
             let normals = normal_error(&found.normals, &sample.to_normal_map(), &mask)?;
@@ -96,12 +97,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 decoding: Decoding::SoftArgmax,
                 quality,
             };
-            pollster::block_on(light.estimate(&stack, &mask, options, &mut Quiet))
+            pollster::block_on(light.estimate(&stack, &mask, options, &mut NoopObserver))
         };
         let find_normals = |lights: &[Light], view: Symmetry| {
             let calibrated = CalibratedStack::new(&stack, &mask, lights)?;
-            let stage = Stage::Normals;
-            pollster::block_on(normal.estimate(calibrated, &[view], stage, &mut Quiet))
+            let stage = PipelineStage::Normals;
+            pollster::block_on(normal.estimate(calibrated, &[view], stage, &mut NoopObserver))
         };
         let mut first: Option<[NormalMap; 2]> = None;
         let mut all_lights = vec![

@@ -16,7 +16,7 @@ const NEXT: &str = "checkpoint-next.safetensors";
 
 /// Where a run stands, beside its tensors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Standing {
+pub(crate) struct TrainingState {
     /// Steps taken.
     pub(crate) step: usize,
     /// Best validation so far.
@@ -31,7 +31,7 @@ pub(crate) struct Standing {
     pub(crate) waited: f64,
 }
 
-impl Standing {
+impl TrainingState {
     pub(crate) fn start() -> Self {
         Self {
             step: 0,
@@ -53,7 +53,7 @@ pub(crate) fn exists(folder: &Path) -> bool {
 pub(crate) fn save(
     folder: &Path,
     tensors: &NamedTensors,
-    standing: &Standing,
+    training_state: &TrainingState,
 ) -> Result<(), TrainError> {
     let newest = folder.join(NEWEST);
     let failed = |reason: String| TrainError::Checkpoint {
@@ -74,13 +74,17 @@ pub(crate) fn save(
         })
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| failed(error.to_string()))?;
-    let standing = serde_json::to_string(standing).map_err(|error| failed(error.to_string()))?;
+    let training_state =
+        serde_json::to_string(training_state).map_err(|error| failed(error.to_string()))?;
     let hash = hash(
         tensors
             .iter()
             .map(|(name, bytes)| (name.as_str(), &bytes[..])),
     );
-    let metadata = HashMap::from([("standing".to_owned(), standing), ("hash".to_owned(), hash)]);
+    let metadata = HashMap::from([
+        ("training_state".to_owned(), training_state),
+        ("hash".to_owned(), hash),
+    ]);
     let file =
         safetensors::serialize(views, Some(metadata)).map_err(|error| failed(error.to_string()))?;
     write_files(folder, &[(NEXT, file)])?;
@@ -100,7 +104,7 @@ pub(crate) fn save(
 #[derive(Debug)]
 pub(crate) struct Loaded {
     pub(crate) tensors: NamedTensors,
-    pub(crate) standing: Standing,
+    pub(crate) training_state: TrainingState,
     /// The file.
     pub(crate) path: PathBuf,
     /// Why it is not the newest checkpoint.
@@ -111,10 +115,10 @@ pub(crate) struct Loaded {
 pub(crate) fn load(folder: &Path) -> Result<Loaded, TrainError> {
     let read = |name: &str| {
         let path = folder.join(name);
-        let (tensors, standing) = read(&path)?;
+        let (tensors, training_state) = read(&path)?;
         Ok(Loaded {
             tensors,
-            standing,
+            training_state,
             path,
             note: None,
         })
@@ -129,7 +133,7 @@ pub(crate) fn load(folder: &Path) -> Result<Loaded, TrainError> {
     })
 }
 
-fn read(path: &Path) -> Result<(NamedTensors, Standing), TrainError> {
+fn read(path: &Path) -> Result<(NamedTensors, TrainingState), TrainError> {
     let bytes = std::fs::read(path).map_err(|reason| TrainError::File {
         path: path.to_owned(),
         reason,
@@ -150,8 +154,8 @@ fn read(path: &Path) -> Result<(NamedTensors, Standing), TrainError> {
         };
         metadata.get(key).ok_or_else(missing)
     };
-    let standing = serde_json::from_str(entry("standing")?)
-        .map_err(|error| broken(format!("standing: {error}")))?;
+    let training_state = serde_json::from_str(entry("training_state")?)
+        .map_err(|error| broken(format!("training_state: {error}")))?;
     let views: BTreeMap<String, TensorView> = file.tensors().into_iter().collect();
     let found = hash(
         views
@@ -170,7 +174,7 @@ fn read(path: &Path) -> Result<(NamedTensors, Standing), TrainError> {
         let values = values.map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
         tensors.insert(name, values.collect());
     }
-    Ok((tensors, standing))
+    Ok((tensors, training_state))
 }
 
 /// SHA-256 over names and values in the order of the names.
@@ -201,8 +205,8 @@ mod tests {
         NamedTensors::from([("weight/a".to_owned(), vec![value, f32::MIN_POSITIVE, -0.1])])
     }
 
-    fn standing(step: usize) -> Standing {
-        Standing {
+    fn training_state(step: usize) -> TrainingState {
+        TrainingState {
             step,
             best: Some(Best {
                 step,
@@ -219,10 +223,10 @@ mod tests {
     #[test]
     fn numbers_come_back_exactly() {
         let folder = tempfile::tempdir().unwrap();
-        save(folder.path(), &tensors(0.3), &standing(7)).unwrap();
+        save(folder.path(), &tensors(0.3), &training_state(7)).unwrap();
         let loaded = load(folder.path()).unwrap();
         assert_eq!(loaded.tensors, tensors(0.3));
-        assert_eq!(loaded.standing, standing(7));
+        assert_eq!(loaded.training_state, training_state(7));
         assert_eq!(loaded.note, None);
     }
 
@@ -230,7 +234,7 @@ mod tests {
     fn the_one_before_stands_in_for_a_damaged_one() {
         let folder = tempfile::tempdir().unwrap();
         for step in [1, 2, 3] {
-            save(folder.path(), &tensors(step as f32), &standing(step)).unwrap();
+            save(folder.path(), &tensors(step as f32), &training_state(step)).unwrap();
         }
         let newest = folder.path().join(NEWEST);
         let whole = std::fs::read(&newest).unwrap();
@@ -240,14 +244,17 @@ mod tests {
         for bytes in [&cut[..], &flipped[..], &[]] {
             std::fs::write(&newest, bytes).unwrap();
             let loaded = load(folder.path()).unwrap();
-            assert_eq!((loaded.standing.step, loaded.tensors), (2, tensors(2.0)));
+            assert_eq!(
+                (loaded.training_state.step, loaded.tensors),
+                (2, tensors(2.0))
+            );
             let note = loaded.note.unwrap();
             assert!(note.contains(NEWEST) && note.contains("before"), "{note}");
         }
         // Killed between the two renames.
         std::fs::remove_file(&newest).unwrap();
         assert!(exists(folder.path()));
-        assert_eq!(load(folder.path()).unwrap().standing.step, 2);
+        assert_eq!(load(folder.path()).unwrap().training_state.step, 2);
         // Nothing whole is left.
         std::fs::write(&newest, b"x").unwrap();
         std::fs::write(folder.path().join(BEFORE), b"").unwrap();

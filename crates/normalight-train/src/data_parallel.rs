@@ -30,12 +30,12 @@ pub(crate) struct Replicas<T: Task> {
 /// A device besides the main one, with a thread as long as the run: GPU streams and their memory
 /// belong to threads.
 struct Worker<N> {
-    jobs: Sender<Job<N>>,
+    jobs: Sender<RunSpec<N>>,
     results: Receiver<PartResult>,
     thread: JoinHandle<()>,
 }
 
-struct Job<N> {
+struct RunSpec<N> {
     network: N,
     part: Batch,
     share: f32,
@@ -75,7 +75,7 @@ impl<T: Task> Replicas<T> {
             // would move them away from the main device; a validation snapshot has its own.
             let network = network.valid();
             // A thread that is gone is noticed when its result is wanted.
-            let _ = worker.jobs.send(Job {
+            let _ = worker.jobs.send(RunSpec {
                 network,
                 part,
                 share,
@@ -100,12 +100,12 @@ impl<T: Task> Replicas<T> {
 
 /// Computes on a device until nobody has jobs for it any more.
 fn start<T: Task>(recipe: TrainRecipe, main: Device, device: Device) -> Worker<T::Network> {
-    let (jobs, todo) = channel::<Job<T::Network>>();
+    let (jobs, todo) = channel::<RunSpec<T::Network>>();
     let (done, results) = channel();
     let thread = std::thread::spawn(move || {
-        for job in todo {
-            let replica = job.network.fork(&device).train();
-            let loss = T::loss(&recipe, &replica, &job.part, &device) * job.share;
+        for spec in todo {
+            let replica = spec.network.fork(&device).train();
+            let loss = T::loss(&recipe, &replica, &spec.part, &device) * spec.share;
             let gradients = GradientsParams::from_grads(loss.backward(), &replica);
             let result = PartResult {
                 loss: scalar(loss),

@@ -13,7 +13,7 @@ pub(crate) trait Learner {
     ///
     /// # Errors
     /// Of the device.
-    fn learn(&mut self, batch: &Self::Batch, step: usize) -> Result<Learned, TrainError>;
+    fn learn(&mut self, batch: &Self::Batch, step: usize) -> Result<StepOutcome, TrainError>;
 
     /// Errors on unseen objects after so many steps.
     ///
@@ -53,13 +53,13 @@ pub(crate) trait Learner {
 
 /// What a step gave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Learned {
+pub(crate) struct StepOutcome {
     pub(crate) loss: f32,
     /// Norm of the gradient over all weights, before clipping.
     pub(crate) gradient_norm: f32,
 }
 
-impl Learned {
+impl StepOutcome {
     /// The first number that is not finite, and what it is.
     pub(crate) fn failure(&self) -> Option<(&'static str, f32)> {
         let numbers = [

@@ -46,8 +46,8 @@ pub use recipe::{
 };
 pub use run::{Devices, TrainRun, train};
 pub use search::{
-    AlphaRecipe, Budget, CompareEvent, CompareRun, Compared, Comparison, EntryKind, Equal, Group,
-    Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun, SearchSettings,
+    AlphaRecipe, Budget, CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal,
+    Group, Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun, SearchSettings,
     SearchStep, SeedResult, compare, derive_again, placements, random_genotypes, search,
 };
 pub use session::TrainEvent;

@@ -7,7 +7,8 @@ use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
 use normalight_model::{
-    LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, Quality, Quiet, Weights,
+    LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, NoopObserver, Quality,
+    Weights,
 };
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
@@ -161,7 +162,8 @@ impl Task for LightTask {
         };
         for sample in objects {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-            let lights = pollster::block_on(loaded.estimate(&stack, &mask, options, &mut Quiet))?;
+            let lights =
+                pollster::block_on(loaded.estimate(&stack, &mask, options, &mut NoopObserver))?;
             sum += mean_light_error(&lights, &sample.lights)?;
             intensity += intensity_error(&lights, &sample.lights)?;
         }

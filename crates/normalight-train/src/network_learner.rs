@@ -2,7 +2,7 @@
 use crate::average::Average;
 use crate::batch::Batch;
 use crate::data_parallel::{Replicas, scalar};
-use crate::learner::{Learned, Learner};
+use crate::learner::{Learner, StepOutcome};
 use crate::named_tensors::{NamedTensors, collect, fill, put, take};
 use crate::optimiser::{HostGradients, Optimiser};
 use crate::samples::first_scene;
@@ -79,7 +79,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
     }
 
     /// The network as it is validated and kept: without gradients, with averaged weights.
-    fn judged(&self) -> T::Network {
+    fn eval_network(&self) -> T::Network {
         let network = self.network.valid();
         match &self.average {
             None => network,
@@ -109,7 +109,7 @@ pub(crate) fn seeded<M: Module>(
 impl<T: Task> Learner for NetworkLearner<'_, T> {
     type Batch = Batch;
 
-    fn learn(&mut self, batch: &Batch, step: usize) -> Result<Learned, TrainError> {
+    fn learn(&mut self, batch: &Batch, step: usize) -> Result<StepOutcome, TrainError> {
         let (loss, gradients) = match &mut self.replicas {
             Some(replicas) => replicas.gradients(&self.network, batch),
             None => {
@@ -119,7 +119,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
             }
         };
         let gradients = HostGradients::new(&self.network, &gradients);
-        let learned = Learned {
+        let learned = StepOutcome {
             loss,
             gradient_norm: gradients.norm,
         };
@@ -137,11 +137,16 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
     }
 
     fn validate(&mut self, _step: usize) -> Result<Validation, TrainError> {
-        T::validate(self.recipe, &self.judged(), &self.objects, self.device)
+        T::validate(
+            self.recipe,
+            &self.eval_network(),
+            &self.objects,
+            self.device,
+        )
     }
 
     fn result(&self) -> Result<Option<Vec<u8>>, TrainError> {
-        let bytes = T::bytes(self.recipe, &self.judged())?;
+        let bytes = T::bytes(self.recipe, &self.eval_network())?;
         // Weights that leave the range of half precision become infinite in the file.
         Ok(Weights::from_bytes(RESULT, &bytes).is_ok().then_some(bytes))
     }

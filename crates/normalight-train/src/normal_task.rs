@@ -9,8 +9,8 @@ use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{CalibratedStack, Light, normal_error};
 use normalight_kernels::channels_first;
 use normalight_model::{
-    AuxiliaryTower, LoadedNetwork, NormalBody, NormalInput, NormalNetwork, Quality, Quiet, Stage,
-    Weights,
+    AuxiliaryTower, LoadedNetwork, NoopObserver, NormalBody, NormalInput, NormalNetwork,
+    PipelineStage, Quality, Weights,
 };
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
@@ -150,8 +150,12 @@ impl Task for NormalTask {
             let lights = disturbed(&recipe.normal, &sample.lights, index as u64);
             let calibrated = CalibratedStack::new(&stack, &mask, &lights)?;
             let views = Quality::Fast.views();
-            let normals =
-                pollster::block_on(loaded.estimate(calibrated, views, Stage::Normals, &mut Quiet))?;
+            let normals = pollster::block_on(loaded.estimate(
+                calibrated,
+                views,
+                PipelineStage::Normals,
+                &mut NoopObserver,
+            ))?;
             let error = normal_error(&normals, &sample.to_normal_map(), &mask)?;
             sum += error.mean;
             for (share, found) in shares.iter_mut().zip(error.shares) {
@@ -241,9 +245,13 @@ mod tests {
                 device: device.clone(),
             };
             let views = Quality::Fast.views();
-            let normals =
-                pollster::block_on(loaded.estimate(calibrated, views, Stage::Normals, &mut Quiet))
-                    .unwrap();
+            let normals = pollster::block_on(loaded.estimate(
+                calibrated,
+                views,
+                PipelineStage::Normals,
+                &mut NoopObserver,
+            ))
+            .unwrap();
             for (found, shown) in normals.normals().iter().zip(shown.chunks_exact(3)) {
                 assert!(found.distance(Vec3::from_slice(shown)) < 1e-5);
             }

@@ -4,7 +4,7 @@ use burn::tensor::Device;
 use glam::Vec3;
 use normalight_core::{Decoding, Light};
 use normalight_model::{
-    LightOptions, LoadedLightNetwork, Quality, Quiet, Weights, default_weights,
+    LightOptions, LoadedLightNetwork, NoopObserver, Quality, Weights, default_weights,
 };
 use normalight_synth::{Sample, Scene};
 use std::path::Path;
@@ -81,7 +81,8 @@ impl Predictor {
             decoding: Decoding::SoftArgmax,
             quality: Quality::Fast,
         };
-        let predicted = pollster::block_on(network.estimate(&stack, &mask, options, &mut Quiet))?;
+        let predicted =
+            pollster::block_on(network.estimate(&stack, &mask, options, &mut NoopObserver))?;
         Ok(Prediction::new(&predicted, &sample.lights))
     }
 }

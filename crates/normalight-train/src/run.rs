@@ -6,10 +6,10 @@ use crate::normal_task::NormalTask;
 use crate::predicted::{Predictor, read_weights};
 use crate::recipe::MOST_GIGABYTES;
 use crate::samples::SampleMaker;
-use crate::session::{Job, Session, TrainEvent, run_job};
+use crate::session::{RunSpec, Session, TrainEvent, run_job};
 use crate::source::Source;
 use crate::task::Task;
-use crate::training_loop::Pace;
+use crate::training_loop::LoopSchedule;
 use crate::{Network, Summary, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use std::ops::ControlFlow;
@@ -67,14 +67,14 @@ pub fn train<'a>(
 ) -> Result<Summary, TrainError> {
     let (recipe, devices) = (&run.recipe, &devices.into());
     recipe.validate()?;
-    let job = Job {
+    let spec = RunSpec {
         folder: run.folder.clone(),
         resume: run.resume,
         recipe: recipe.to_toml()?,
         network: recipe.network,
         parameters: recipe.parameters(),
         seed: recipe.seed,
-        pace: Pace {
+        schedule: LoopSchedule {
             steps: recipe.steps,
             validate_every: recipe.validate_every,
             checkpoint_every: recipe.checkpoint_every,
@@ -85,13 +85,13 @@ pub fn train<'a>(
     let card = |summary: &Summary| model_card(recipe, summary, &run.command);
     match recipe.network {
         Network::Light => run_job(
-            &job,
+            &spec,
             &mut observe,
             |session| train_network::<LightTask, _>(recipe, devices, session),
             card,
         ),
         Network::Normal => run_job(
-            &job,
+            &spec,
             &mut observe,
             |session| train_network::<NormalTask, _>(recipe, devices, session),
             card,

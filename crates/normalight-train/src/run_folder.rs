@@ -1,6 +1,6 @@
 //! The folder of a run: one process at a time, files only when complete.
 use crate::recipe::{Difference, differences};
-use crate::session::Job;
+use crate::session::RunSpec;
 use crate::{Summary, TrainError, checkpoint};
 use normalight_io::write_files;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -37,8 +37,8 @@ impl RunFolder {
     ///
     /// # Errors
     /// [`TrainError::Locked`], or [`TrainError::File`].
-    pub(crate) fn open(job: &Job) -> Result<Self, TrainError> {
-        let path = &job.folder;
+    pub(crate) fn open(spec: &RunSpec) -> Result<Self, TrainError> {
+        let path = &spec.folder;
         let failed = |reason| TrainError::File {
             path: path.to_owned(),
             reason,
@@ -59,7 +59,7 @@ impl RunFolder {
         }
         Ok(Self {
             path: path.to_owned(),
-            result: job.result,
+            result: spec.result,
             _lock: lock,
         })
     }
@@ -71,8 +71,8 @@ impl RunFolder {
     /// Compares what is here with the run that is asked for.
     ///
     /// # Errors
-    /// [`TrainError::OtherRecipe`]; [`TrainError::Unfinished`] unless the job is to be continued.
-    pub(crate) fn find(&self, job: &Job) -> Result<Found, TrainError> {
+    /// [`TrainError::OtherRecipe`]; [`TrainError::Unfinished`] unless the run is to be continued.
+    pub(crate) fn find(&self, spec: &RunSpec) -> Result<Found, TrainError> {
         let file = self.path.join(RECIPE);
         let unfinished = || TrainError::Unfinished {
             path: self.path.clone(),
@@ -80,14 +80,14 @@ impl RunFolder {
         let text = match std::fs::read_to_string(&file) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                if checkpoint::exists(&self.path) && !job.resume {
+                if checkpoint::exists(&self.path) && !spec.resume {
                     return Err(unfinished());
                 }
                 return Ok(Found::Begun(None));
             }
             Err(reason) => return Err(TrainError::File { path: file, reason }),
         };
-        let found = differences(&text, &job.recipe).map_err(|error| TrainError::Recipe {
+        let found = differences(&text, &spec.recipe).map_err(|error| TrainError::Recipe {
             file: file.display().to_string(),
             reason: error.to_string(),
         })?;
@@ -103,11 +103,11 @@ impl RunFolder {
             });
         }
         if let Some(summary) = self.summary()
-            && summary.is_end_of(job.pace.steps)
+            && summary.is_end_of(spec.schedule.steps)
         {
             return Ok(Found::Finished(summary));
         }
-        if !job.resume {
+        if !spec.resume {
             return Err(unfinished());
         }
         let found: Vec<String> = found.iter().map(Difference::to_string).collect();

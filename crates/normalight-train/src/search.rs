@@ -16,7 +16,7 @@ mod task;
 
 pub use budget::{Budget, Measure, OperationTime, OperationTimes, placements};
 pub use compare::{
-    CompareEvent, CompareRun, Compared, Comparison, EntryKind, Equal, Group, SeedResult, compare,
+    CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal, Group, SeedResult, compare,
 };
 pub use random::random_genotypes;
 pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};

@@ -1,9 +1,9 @@
 //! What is the same for every kind of run: folder, continuing, notes, summary.
-use crate::checkpoint::{self, Standing};
+use crate::checkpoint::{self, TrainingState};
 use crate::learner::Learner;
 use crate::loader::{BatchMaker, Batches};
 use crate::run_folder::{Found, RunFolder};
-use crate::training_loop::{Pace, StepReport, train_loop};
+use crate::training_loop::{LoopSchedule, StepReport, train_loop};
 use crate::{Network, RunState, Summary, TrainError};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub enum TrainEvent {
 
 /// A run as its folder knows it.
 #[derive(Debug)]
-pub(crate) struct Job {
+pub(crate) struct RunSpec {
     /// Where.
     pub(crate) folder: PathBuf,
     /// Whether an earlier beginning is continued.
@@ -30,18 +30,18 @@ pub(crate) struct Job {
     /// Number of trainable weights that are kept.
     pub(crate) parameters: usize,
     pub(crate) seed: u64,
-    pub(crate) pace: Pace,
+    pub(crate) schedule: LoopSchedule,
     /// Name of the file that holds the best result.
     pub(crate) result: &'static str,
 }
 
-/// Runs a job in its folder: `train` prepares a learner and lets it go, `card` writes about the result.
-/// A job that is finished already is not begun.
+/// Carries out a run in its folder: `train` prepares a learner and lets it go, `card` writes about the result.
+/// A run that is finished already is not begun.
 ///
 /// # Errors
 /// Those of the folder, and of `train`; the summary tells them unless nothing has begun.
 pub(crate) fn run_job<O>(
-    job: &Job,
+    spec: &RunSpec,
     observe: &mut O,
     train: impl FnOnce(&mut Session<O>) -> Result<ControlFlow<()>, TrainError>,
     card: impl FnOnce(&Summary) -> String,
@@ -49,8 +49,8 @@ pub(crate) fn run_job<O>(
 where
     O: FnMut(TrainEvent) -> ControlFlow<()>,
 {
-    let folder = RunFolder::open(job)?;
-    let notes = match folder.find(job)? {
+    let folder = RunFolder::open(spec)?;
+    let notes = match folder.find(spec)? {
         Found::Begun(note) => note.into_iter().collect(),
         Found::Finished(summary) => {
             let note = "finished already, nothing is left to do".to_owned();
@@ -59,9 +59,9 @@ where
         }
     };
     let mut session = Session {
-        job,
+        spec,
         folder,
-        standing: Standing::start(),
+        training_state: TrainingState::start(),
         notes,
         observe,
     };
@@ -69,11 +69,11 @@ where
     session.end(result, card)
 }
 
-/// A job under way.
+/// A run under way.
 pub(crate) struct Session<'a, O> {
-    job: &'a Job,
+    spec: &'a RunSpec,
     folder: RunFolder,
-    standing: Standing,
+    training_state: TrainingState,
     notes: Vec<String>,
     observe: &'a mut O,
 }
@@ -87,25 +87,25 @@ impl<O: FnMut(TrainEvent) -> ControlFlow<()>> Session<'_, O> {
         start: impl FnOnce(&mut L) -> Result<String, TrainError>,
     ) -> Result<(), TrainError> {
         let path = self.folder.path();
-        if self.job.resume && checkpoint::exists(path) {
+        if self.spec.resume && checkpoint::exists(path) {
             let loaded = checkpoint::load(path)?;
-            let step = loaded.standing.step;
+            let step = loaded.training_state.step;
             learner
                 .restore(loaded.tensors, step)
                 .map_err(|reason| TrainError::Checkpoint {
                     path: loaded.path,
                     reason,
                 })?;
-            self.standing = loaded.standing;
+            self.training_state = loaded.training_state;
             self.notes.extend(loaded.note);
-            let steps = self.job.pace.steps;
+            let steps = self.spec.schedule.steps;
             self.notes
                 .push(format!("continued after step {step} of {steps}"));
         } else {
             self.notes.push(start(learner)?);
         }
         self.folder.clean();
-        self.folder.write_recipe(&self.job.recipe)?;
+        self.folder.write_recipe(&self.spec.recipe)?;
         for note in std::mem::take(&mut self.notes) {
             self.folder.log(&note);
             let _ = (self.observe)(TrainEvent::Note(note));
@@ -124,17 +124,24 @@ impl<O: FnMut(TrainEvent) -> ControlFlow<()>> Session<'_, O> {
         L: Learner,
         M: BatchMaker<Batch = L::Batch>,
     {
-        let pace = self.job.pace;
-        let mut batches = Batches::start(maker, threads, self.standing.step, pace.steps);
+        let schedule = self.spec.schedule;
+        let mut batches = Batches::start(maker, threads, self.training_state.step, schedule.steps);
         let observe = &mut *self.observe;
         let observe = |report| observe(TrainEvent::Step(report));
-        let (folder, standing) = (&self.folder, &mut self.standing);
-        train_loop(learner, &mut batches, folder, pace, standing, observe)
+        let (folder, training_state) = (&self.folder, &mut self.training_state);
+        train_loop(
+            learner,
+            &mut batches,
+            folder,
+            schedule,
+            training_state,
+            observe,
+        )
     }
 
     fn summary(&self, state: RunState) -> Summary {
         let result = self.folder.result();
-        Summary::new(self.job, &self.standing, state, result.as_deref())
+        Summary::new(self.spec, &self.training_state, state, result.as_deref())
     }
 
     fn end(
@@ -174,7 +181,7 @@ impl<O: FnMut(TrainEvent) -> ControlFlow<()>> Session<'_, O> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learner::Learned;
+    use crate::learner::StepOutcome;
     use crate::named_tensors::NamedTensors;
     use crate::task::Validation;
     use std::collections::BTreeMap;
@@ -204,10 +211,10 @@ mod tests {
     impl Learner for Walker {
         type Batch = f32;
 
-        fn learn(&mut self, batch: &f32, step: usize) -> Result<Learned, TrainError> {
+        fn learn(&mut self, batch: &f32, step: usize) -> Result<StepOutcome, TrainError> {
             let gradient = self.0 - batch;
             self.0 -= self.rate(step) * gradient;
-            Ok(Learned {
+            Ok(StepOutcome {
                 loss: gradient * gradient,
                 gradient_norm: gradient.abs(),
             })
@@ -246,14 +253,14 @@ mod tests {
     }
 
     fn walk(folder: &Path, stop_at: usize) -> Result<Summary, TrainError> {
-        let job = Job {
+        let spec = RunSpec {
             folder: folder.to_owned(),
             resume: true,
             recipe: "stride = 0.1\n".to_owned(),
             network: Network::Normal,
             parameters: 1,
             seed: 0,
-            pace: Pace {
+            schedule: LoopSchedule {
                 steps: 20,
                 validate_every: 5,
                 checkpoint_every: 3,
@@ -273,7 +280,7 @@ mod tests {
             })?;
             session.go(&mut walker, &Targets, 2)
         };
-        run_job(&job, &mut observe, train, |_| "A walk.\n".to_owned())
+        run_job(&spec, &mut observe, train, |_| "A walk.\n".to_owned())
     }
 
     /// Loop, checkpoints, curves and summary know nothing of networks.

@@ -1,6 +1,6 @@
 //! `summary.json`: how a run stands, for job schedulers and workflow engines.
-use crate::checkpoint::{Standing, hash_of};
-use crate::session::Job;
+use crate::checkpoint::{TrainingState, hash_of};
+use crate::session::RunSpec;
 use crate::{Network, TrainError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -70,8 +70,8 @@ pub struct Summary {
 impl Summary {
     /// `weights`: content of the weights file, where there is one.
     pub(crate) fn new(
-        job: &Job,
-        standing: &Standing,
+        spec: &RunSpec,
+        training_state: &TrainingState,
         state: RunState,
         weights: Option<&[u8]>,
     ) -> Self {
@@ -85,17 +85,17 @@ impl Summary {
             state,
             reason: None,
             exit_code,
-            network: job.network,
-            parameters: job.parameters,
-            seed: job.seed,
-            steps: standing.step,
-            steps_planned: job.pace.steps,
-            best: standing.best.clone(),
-            loss: standing.loss,
-            hours: hours(standing.seconds),
-            hours_waited: hours(standing.waited),
+            network: spec.network,
+            parameters: spec.parameters,
+            seed: spec.seed,
+            steps: training_state.step,
+            steps_planned: spec.schedule.steps,
+            best: training_state.best.clone(),
+            loss: training_state.loss,
+            hours: hours(training_state.seconds),
+            hours_waited: hours(training_state.waited),
             weights_sha256: weights.map(hash_of),
-            recipe_sha256: hash_of(job.recipe.as_bytes()),
+            recipe_sha256: hash_of(spec.recipe.as_bytes()),
             version: env!("CARGO_PKG_VERSION").to_owned(),
         }
     }

@@ -1,7 +1,7 @@
 //! The loop that every kind of training shares.
-use crate::checkpoint::{self, Standing};
+use crate::checkpoint::{self, TrainingState};
 use crate::curves::{self, Point};
-use crate::learner::{Learned, Learner};
+use crate::learner::{Learner, StepOutcome};
 use crate::loader::Batches;
 use crate::run_folder::RunFolder;
 use crate::task::Validation;
@@ -11,7 +11,7 @@ use std::time::Instant;
 
 /// How long a run is, and how often it does what.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pace {
+pub(crate) struct LoopSchedule {
     /// Steps in all.
     pub(crate) steps: usize,
     /// Steps between validations.
@@ -47,32 +47,32 @@ pub(crate) fn train_loop<L: Learner>(
     learner: &mut L,
     batches: &mut Batches<L::Batch>,
     folder: &RunFolder,
-    pace: Pace,
-    standing: &mut Standing,
+    schedule: LoopSchedule,
+    training_state: &mut TrainingState,
     mut observe: impl FnMut(StepReport) -> ControlFlow<()>,
 ) -> Result<ControlFlow<()>, TrainError> {
     let mut points = curves::read(folder.path())?;
-    points.retain(|point| point.step <= standing.step);
+    points.retain(|point| point.step <= training_state.step);
     let mut speed = Speed::default();
-    while standing.step < pace.steps {
+    while training_state.step < schedule.steps {
         let start = Instant::now();
         let batch = batches.next()?;
         let waited = start.elapsed().as_secs_f64();
-        let learned = learn(learner, &batch, standing.step)?;
-        let rate = learner.rate(standing.step);
-        standing.step += 1;
-        standing.loss = Some(learned.loss);
-        standing.recent.0 += learned.loss;
-        standing.recent.1 += 1;
+        let learned = learn(learner, &batch, training_state.step)?;
+        let rate = learner.rate(training_state.step);
+        training_state.step += 1;
+        training_state.loss = Some(learned.loss);
+        training_state.recent.0 += learned.loss;
+        training_state.recent.1 += 1;
         let computed = start.elapsed().as_secs_f64() - waited;
         speed.add(waited, computed);
-        let last = standing.step == pace.steps;
-        let validation = if last || standing.step.is_multiple_of(pace.validate_every) {
-            let seconds = standing.seconds + start.elapsed().as_secs_f64();
+        let last = training_state.step == schedule.steps;
+        let validation = if last || training_state.step.is_multiple_of(schedule.validate_every) {
+            let seconds = training_state.seconds + start.elapsed().as_secs_f64();
             Some(validate(
                 learner,
                 folder,
-                standing,
+                training_state,
                 &mut points,
                 rate,
                 seconds,
@@ -80,24 +80,26 @@ pub(crate) fn train_loop<L: Learner>(
         } else {
             None
         };
-        standing.seconds += start.elapsed().as_secs_f64();
-        standing.waited += waited;
+        training_state.seconds += start.elapsed().as_secs_f64();
+        training_state.waited += waited;
         let answer = observe(StepReport {
-            step: standing.step,
+            step: training_state.step,
             loss: learned.loss,
             gradient_norm: learned.gradient_norm,
             validation: validation.as_ref().map(|validation| validation.degrees),
-            best: standing.best.as_ref().map(|best| best.degrees),
+            best: training_state.best.as_ref().map(|best| best.degrees),
             seconds: computed,
             waited,
         });
-        let due = standing.step.is_multiple_of(pace.checkpoint_every);
+        let due = training_state
+            .step
+            .is_multiple_of(schedule.checkpoint_every);
         if last || answer.is_break() || due {
-            checkpoint::save(folder.path(), &learner.state(), standing)?;
+            checkpoint::save(folder.path(), &learner.state(), training_state)?;
         }
         if last || due || validation.is_some() {
-            let line = log_line(standing, pace, learned, rate, validation.as_ref());
-            folder.log(&format!("{line}, {}", speed.take(pace.batch)));
+            let line = log_line(training_state, schedule, learned, rate, validation.as_ref());
+            folder.log(&format!("{line}, {}", speed.take(schedule.batch)));
         }
         if answer.is_break() && !last {
             return Ok(answer);
@@ -110,7 +112,7 @@ fn learn<L: Learner>(
     learner: &mut L,
     batch: &L::Batch,
     step: usize,
-) -> Result<Learned, TrainError> {
+) -> Result<StepOutcome, TrainError> {
     let learned = learner.learn(batch, step)?;
     match learned.failure() {
         None => Ok(learned),
@@ -127,15 +129,15 @@ fn learn<L: Learner>(
 fn validate<L: Learner>(
     learner: &mut L,
     folder: &RunFolder,
-    standing: &mut Standing,
+    training_state: &mut TrainingState,
     points: &mut Vec<Point>,
     rate: f32,
     seconds: f64,
 ) -> Result<Validation, TrainError> {
-    let validation = learner.validate(standing.step)?;
-    let (sum, count) = std::mem::take(&mut standing.recent);
+    let validation = learner.validate(training_state.step)?;
+    let (sum, count) = std::mem::take(&mut training_state.recent);
     points.push(Point {
-        step: standing.step,
+        step: training_state.step,
         loss: sum / count.max(1) as f32,
         error: validation.degrees,
         rate,
@@ -147,7 +149,7 @@ fn validate<L: Learner>(
         folder.write(&name, &content)?;
     }
     let better = |best: &Best| validation.degrees < best.degrees;
-    let is_best = validation.degrees.is_finite() && standing.best.as_ref().is_none_or(better);
+    let is_best = validation.degrees.is_finite() && training_state.best.as_ref().is_none_or(better);
     if (is_best || L::KEEPS_NEWEST)
         && let Some(result) = learner.result()?
     {
@@ -156,8 +158,8 @@ fn validate<L: Learner>(
         return Ok(validation);
     }
     if is_best {
-        standing.best = Some(Best {
-            step: standing.step,
+        training_state.best = Some(Best {
+            step: training_state.step,
             degrees: validation.degrees,
             // JSON has no word for other numbers.
             figures: validation
@@ -172,22 +174,22 @@ fn validate<L: Learner>(
 }
 
 fn log_line(
-    standing: &Standing,
-    pace: Pace,
-    learned: Learned,
+    training_state: &TrainingState,
+    schedule: LoopSchedule,
+    learned: StepOutcome,
     rate: f32,
     validation: Option<&Validation>,
 ) -> String {
     let mut line = format!(
         "step {} of {}: loss {:.5}, gradient {:.4}, learning rate {rate:.3e}",
-        standing.step, pace.steps, learned.loss, learned.gradient_norm
+        training_state.step, schedule.steps, learned.loss, learned.gradient_norm
     );
     if let Some(validation) = validation {
         line += &format!(", validation {:.3} degrees", validation.degrees);
         for (name, value) in &validation.figures {
             line += &format!(", {name} {value:.4}");
         }
-        if let Some(best) = &standing.best {
+        if let Some(best) = &training_state.best {
             line += &format!(", best {:.3} degrees at step {}", best.degrees, best.step);
         }
     }

@@ -3,8 +3,8 @@
 use burn::tensor::Device;
 use normalight_core::{intensity_error, mean_light_error, normal_error};
 use normalight_model::{
-    EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NormalArchitecture,
-    NormalNetwork, Observer, Progress, Quiet, Weights,
+    EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NoopObserver,
+    NormalArchitecture, NormalNetwork, Observer, Progress, Weights,
 };
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use normalight_train::{BenchmarkObject, LightsFrom, TrainError, evaluate_object};
@@ -49,11 +49,11 @@ impl Observer for Impatient {
 fn figures_are_the_errors_of_the_pipeline() {
     let (estimator, object) = (estimator(), object());
     let settings = EstimateSettings::default();
-    let mut quiet = Quiet;
+    let mut quiet = NoopObserver;
     let estimated = estimator.estimate(&object.stack, &object.mask, None, settings, &mut quiet);
     let estimate = pollster::block_on(estimated).unwrap();
     let from = LightsFrom::Photographs;
-    let found = evaluate_object(&estimator, &object, from, settings, &mut Quiet).unwrap();
+    let found = evaluate_object(&estimator, &object, from, settings, &mut NoopObserver).unwrap();
     assert_eq!((found.name.as_str(), found.images), ("egg", 4));
     assert_eq!(found.pixels, object.mask.count());
     let figures = found.figures;
@@ -74,11 +74,11 @@ fn true_lights_are_given_and_not_judged() {
     let (estimator, object) = (estimator(), object());
     let settings = EstimateSettings::default();
     let given = Some(object.lights.as_slice());
-    let mut quiet = Quiet;
+    let mut quiet = NoopObserver;
     let estimated = estimator.estimate(&object.stack, &object.mask, given, settings, &mut quiet);
     let estimate = pollster::block_on(estimated).unwrap();
     let from = LightsFrom::Truth;
-    let found = evaluate_object(&estimator, &object, from, settings, &mut Quiet).unwrap();
+    let found = evaluate_object(&estimator, &object, from, settings, &mut NoopObserver).unwrap();
     let normals = normal_error(&estimate.normals, &object.normals, &object.mask).unwrap();
     let radians = found.figures.normal_degrees.to_radians() as f32;
     assert!((radians - normals.mean).abs() < 1e-5);
@@ -97,6 +97,6 @@ fn stopping_and_truth_that_does_not_fit() {
         Err(TrainError::Model(ModelError::Cancelled))
     ));
     object.lights.pop();
-    let misfit = evaluate_object(&estimator, &object, from, settings, &mut Quiet);
+    let misfit = evaluate_object(&estimator, &object, from, settings, &mut NoopObserver);
     assert!(matches!(misfit, Err(TrainError::Core(_))));
 }

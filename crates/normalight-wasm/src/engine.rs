@@ -1,9 +1,9 @@
 //! The pipeline, bound to a device.
+use crate::callback::{ProgressCallback, ProgressObserver};
 use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
 use crate::result::{Run, result};
 use crate::settings::Settings;
-use crate::watcher::{Follower, Watcher};
 use burn::tensor::Device;
 use normalight_io::{NamedBytes, read_stack};
 use normalight_model::{Estimator, default_weights};
@@ -50,17 +50,19 @@ impl Engine {
     /// From files to lights and normals. A `mask` or `lights` file replaces what would be found.
     ///
     /// # Errors
-    /// Files or settings that do not do, a watcher that says stop, a device that fails.
+    /// Files or settings that do not do, a callback that says stop, a device that fails.
     pub async fn estimate(
         &self,
         files: Vec<InputFile>,
         mask: Option<InputFile>,
         lights: Option<InputFile>,
         settings: JsValue,
-        watcher: Watcher,
+        callback: ProgressCallback,
     ) -> Result<JsValue, Failure> {
         let settings = Settings::from_js(settings)?;
-        let mut follower = Follower::start(&watcher).await.ok_or(Failure::Cancelled)?;
+        let mut observer = ProgressObserver::start(&callback)
+            .await
+            .ok_or(Failure::Cancelled)?;
         let reading = settings.reading(mask.map(NamedBytes::from));
         let input = read_stack(named_bytes(files), &reading)?;
         let lights = lights.map(NamedBytes::from);
@@ -68,7 +70,7 @@ impl Engine {
             .as_ref()
             .map(|file| input.read_lights(&file.name, &file.bytes))
             .transpose()?;
-        follower.read();
+        observer.read();
         let estimate = self
             .estimator
             .estimate(
@@ -76,7 +78,7 @@ impl Engine {
                 &input.mask,
                 given.as_deref(),
                 settings.estimating(),
-                &mut follower,
+                &mut observer,
             )
             .await?;
         result(&Run {
@@ -86,7 +88,7 @@ impl Engine {
             lights_file: lights.as_ref().map(|file| file.name.as_str()),
             weights: self.estimator.weight_hashes(),
             device: &self.device,
-            seconds: follower.finish(),
+            seconds: observer.finish(),
         })
     }
 }

@@ -3,17 +3,17 @@
 //! The TypeScript package around this module (`web/`) runs it in a worker and gives its objects
 //! their types; nothing else should call it.
 
+mod callback;
 mod engine;
 mod error;
 mod file;
-mod look;
+mod inspect;
 mod result;
 mod settings;
 mod start;
-mod watcher;
 
+pub use callback::ProgressCallback;
 pub use engine::Engine;
 pub use file::InputFile;
-pub use look::{plan, thumbnail};
+pub use inspect::{plan, thumbnail};
 pub use start::start;
-pub use watcher::Watcher;

@@ -80,7 +80,7 @@ pub(crate) fn result(run: &Run<'_>) -> Result<JsValue, Failure> {
             .collect(),
         mask: Mask {
             source: source_word(&input.mask_source),
-            words: input.mask_words(),
+            words: input.mask_label(),
             pixels: input.mask.count(),
         },
         device: run.device,
@@ -129,7 +129,7 @@ fn report(run: &Run<'_>, names: &[String]) -> Result<Vec<u8>, Failure> {
         inputs: names.to_vec(),
         width: run.input.stack.width(),
         height: run.input.stack.height(),
-        mask: run.input.mask_words().to_owned(),
+        mask: run.input.mask_label().to_owned(),
         color: ColorMode::from(run.settings.color).to_string(),
         lights_from: lights_in_words(run).to_owned(),
         device: run.device.to_owned(),

@@ -9,13 +9,13 @@ const COLUMNS: usize = 2;
 const PICTURES: usize = 1 + PHOTOGRAPHS;
 
 /// A picture of many stacks: for each its normals and some of its photographs, for the eye.
-pub(crate) struct Sheet {
+pub(crate) struct ContactSheet {
     size: usize,
     /// `[stacks][PICTURES * 3 * size * size]`, interleaved pictures one after the other
     strips: Vec<Vec<u8>>,
 }
 
-impl Sheet {
+impl ContactSheet {
     /// `size`: side of the photographs in pixels.
     pub(crate) fn new(size: usize) -> Self {
         Self {

@@ -1,10 +1,10 @@
 //! The operations with gradients.
 use super::{
-    FlexTensor, Kernels, depthwise, dims, geometry, max_with_index, moments, small_tensor, tensor,
-    transposed_geometry,
+    FlexTensor, KernelBackend, depthwise, dims, geometry, max_with_index, moments, small_tensor,
+    tensor, transposed_geometry,
 };
 use crate::Convolution;
-use crate::cpu::{convolution, most, normalise, transposed};
+use crate::cpu::{convolution, max_over_images, normalise, transposed};
 use burn::backend::autodiff::Autodiff;
 use burn::backend::autodiff::checkpoint::base::Checkpointer;
 use burn::backend::autodiff::checkpoint::strategy::CheckpointStrategy;
@@ -38,14 +38,14 @@ struct Convolved<How> {
 /// of the parents has no public name.
 macro_rules! handed_over {
     ($state:expr, $found:expr, $parents:expr, $gradients:expr) => {{
-        let (state, found, [of_input, of_weight, of_bias]) = ($state, $found, $parents);
-        if let (Some(node), Some(values)) = (of_input, found.input) {
+        let (state, found, [grad_input, grad_weight, grad_bias]) = ($state, $found, $parents);
+        if let (Some(node), Some(values)) = (grad_input, found.input) {
             $gradients.register::<Flex>(node.id, tensor(values, &dims(&state.input)));
         }
-        if let (Some(node), Some(values)) = (of_weight, found.weight) {
+        if let (Some(node), Some(values)) = (grad_weight, found.weight) {
             $gradients.register::<Flex>(node.id, tensor(values, &dims(&state.weight)));
         }
-        if let Some(node) = of_bias {
+        if let Some(node) = grad_bias {
             let shape = [found.bias.len()];
             $gradients.register::<Flex>(node.id, tensor(found.bias, &shape));
         }
@@ -131,11 +131,11 @@ impl Backward<Flex, 2> for DepthwiseBackward {
             gradient.storage(),
             ops.parents[1].is_some(),
         );
-        let [of_input, of_weight] = ops.parents;
-        if let Some(node) = of_input {
+        let [grad_input, grad_weight] = ops.parents;
+        if let Some(node) = grad_input {
             gradients.register::<Flex>(node.id, tensor(found_input, &dims(&input)));
         }
-        if let Some(node) = of_weight {
+        if let Some(node) = grad_weight {
             gradients.register::<Flex>(node.id, tensor(found_weight, &dims(&weight)));
         }
     }
@@ -173,8 +173,8 @@ impl Backward<Flex, 3> for NormalisationBackward {
             state.epsilon,
         );
         let channels = [found.gamma.len()];
-        let [of_input, of_gamma, of_beta] = ops.parents;
-        if let Some(node) = of_input {
+        let [grad_input, of_gamma, of_beta] = ops.parents;
+        if let Some(node) = grad_input {
             gradients.register::<Flex>(node.id, tensor(found.input, &dims(&state.input)));
         }
         if let Some(node) = of_gamma {
@@ -204,13 +204,13 @@ impl Backward<Flex, 1> for MaxBackward {
         let [rows, height, width, channels] = shape;
         let size = height * width * channels;
         if let [Some(node)] = ops.parents {
-            let found = most::backward(gradient.storage(), &which, rows / samples, size);
+            let found = max_over_images::backward(gradient.storage(), &which, rows / samples, size);
             gradients.register::<Flex>(node.id, tensor(found, &shape));
         }
     }
 }
 
-impl<C: CheckpointStrategy> Kernels for Autodiff<Flex, C> {
+impl<C: CheckpointStrategy> KernelBackend for Autodiff<Flex, C> {
     fn convolution(
         input: FloatTensor<Self>,
         weight: FloatTensor<Self>,

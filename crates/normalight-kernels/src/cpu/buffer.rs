@@ -85,7 +85,7 @@ pub(crate) struct Buffer {
 
 impl Buffer {
     /// A buffer whose values are left from earlier use: every one must be written.
-    pub(crate) fn stale(length: usize) -> Self {
+    pub(crate) fn recycled(length: usize) -> Self {
         let needed = length.div_ceil(LINE);
         let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
         let found = unused.take(needed);
@@ -96,7 +96,7 @@ impl Buffer {
 
     /// A buffer of zeros.
     pub(crate) fn zeros(length: usize) -> Self {
-        let mut buffer = Self::stale(length);
+        let mut buffer = Self::recycled(length);
         buffer.fill(0.0);
         buffer
     }

@@ -23,7 +23,7 @@ pub(crate) fn forward(
 ) -> Buffer {
     let geometry = &geometry.joined(PARTS);
     let weight = channels_out_last(geometry, weight);
-    let mut output = Buffer::stale(geometry.batch * geometry.image_out());
+    let mut output = Buffer::recycled(geometry.batch * geometry.image_out());
     if winograd::suits(geometry) {
         let points = winograd::transform_weights(&weight);
         let grid = winograd::TileRows::new(geometry);
@@ -103,11 +103,11 @@ impl Backward<'_> {
         let (size_in, size_out) = (geometry.image_in(), geometry.image_out());
         let part = geometry.batch.div_ceil(PARTS).max(1);
         let parts = geometry.batch.div_ceil(part);
-        let mut of_input = self
+        let mut grad_input = self
             .wants_input
-            .then(|| Buffer::stale(geometry.batch * size_in));
+            .then(|| Buffer::recycled(geometry.batch * size_in));
         // Without gradients of the input, as many empty parts.
-        let of_inputs: Vec<&mut [f32]> = match &mut of_input {
+        let of_inputs: Vec<&mut [f32]> = match &mut grad_input {
             Some(values) => values.chunks_mut(part * size_in).collect(),
             None => (0..parts).map(|_| Default::default()).collect(),
         };
@@ -116,9 +116,9 @@ impl Backward<'_> {
             .zip(self.input.par_chunks(part * size_in))
             .zip(self.output.par_chunks(part * size_out))
             .zip(self.gradient.par_chunks(part * size_out))
-            .map(|(((of_input, input), output), gradient)| {
-                let mut of_weight = Buffer::zeros(weights);
-                let mut of_bias = Buffer::zeros(geometry.channels_out);
+            .map(|(((grad_input, input), output), gradient)| {
+                let mut grad_weight = Buffer::zeros(weights);
+                let mut grad_bias = Buffer::zeros(geometry.channels_out);
                 let part = Part {
                     geometry,
                     input,
@@ -129,22 +129,22 @@ impl Backward<'_> {
                     wants_bias: self.wants_bias,
                 };
                 if by_winograd {
-                    winograd::add_gradients(&part, &mut of_weight, &mut of_bias, of_input);
+                    winograd::add_gradients(&part, &mut grad_weight, &mut grad_bias, grad_input);
                 } else {
-                    direct::add_gradients(&part, &mut of_weight, &mut of_bias, of_input);
+                    direct::add_gradients(&part, &mut grad_weight, &mut grad_bias, grad_input);
                 }
-                (of_weight, of_bias)
+                (grad_weight, grad_bias)
             })
             .collect();
-        let (mut of_weight, of_bias) = sum_parts(sums);
+        let (mut grad_weight, grad_bias) = sum_parts(sums);
         if by_winograd && self.wants_weight {
-            of_weight = winograd::transform_weight_gradients(&of_weight);
+            grad_weight = winograd::transform_weight_gradients(&grad_weight);
         }
         let weight = self.wants_weight;
         Gradients {
-            input: of_input,
-            weight: weight.then(|| channels_first(geometry, &of_weight)),
-            bias: of_bias,
+            input: grad_input,
+            weight: weight.then(|| channels_first(geometry, &grad_weight)),
+            bias: grad_bias,
         }
     }
 }
@@ -181,7 +181,7 @@ pub(crate) fn sum_parts(parts: Vec<(Buffer, Buffer)>) -> (Buffer, Buffer) {
 
 /// `[size, size, channels_in, channels_out]`.
 pub(crate) fn channels_out_last(geometry: &Geometry, weight: &[f32]) -> Buffer {
-    let mut out = Buffer::stale(weight.len());
+    let mut out = Buffer::recycled(weight.len());
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     for_each_weight(geometry, |first, tap, channel_in, channel_out| {
         out[(tap * channels_in + channel_in) * channels_out + channel_out] = weight[first];
@@ -191,7 +191,7 @@ pub(crate) fn channels_out_last(geometry: &Geometry, weight: &[f32]) -> Buffer {
 
 /// `[channels_out, size, size, channels_in]`.
 pub(crate) fn channels_in_last(geometry: &Geometry, weight: &[f32]) -> Buffer {
-    let mut out = Buffer::stale(weight.len());
+    let mut out = Buffer::recycled(weight.len());
     let (taps, channels_in) = (geometry.size * geometry.size, geometry.channels_in);
     for_each_weight(geometry, |first, tap, channel_in, channel_out| {
         out[(channel_out * taps + tap) * channels_in + channel_in] = weight[first];
@@ -201,7 +201,7 @@ pub(crate) fn channels_in_last(geometry: &Geometry, weight: &[f32]) -> Buffer {
 
 /// `[size, size, channels_out, channels_in]`.
 fn taps_first(geometry: &Geometry, weight: &[f32]) -> Buffer {
-    let mut out = Buffer::stale(weight.len());
+    let mut out = Buffer::recycled(weight.len());
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     for_each_weight(geometry, |first, tap, channel_in, channel_out| {
         out[(tap * channels_out + channel_out) * channels_in + channel_in] = weight[first];
@@ -211,7 +211,7 @@ fn taps_first(geometry: &Geometry, weight: &[f32]) -> Buffer {
 
 /// `[channels_out, channels_in, size, size]` from `[size, size, channels_in, channels_out]`.
 pub(crate) fn channels_first(geometry: &Geometry, weight: &[f32]) -> Buffer {
-    let mut out = Buffer::stale(weight.len());
+    let mut out = Buffer::recycled(weight.len());
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     for_each_weight(geometry, |first, tap, channel_in, channel_out| {
         out[first] = weight[(tap * channels_in + channel_in) * channels_out + channel_out];

@@ -75,7 +75,7 @@ impl Depthwise {
     /// - weight: `[channels, size, size]`
     fn repeated(&self, weight: &[f32]) -> Buffer {
         let period = self.period();
-        let mut repeated = Buffer::stale(self.taps() * period);
+        let mut repeated = Buffer::recycled(self.taps() * period);
         for (tap, row) in repeated.chunks_exact_mut(period).enumerate() {
             for (place, value) in row.iter_mut().enumerate() {
                 *value = weight[place % self.channels * self.taps() + tap];
@@ -112,13 +112,13 @@ impl Depthwise {
     /// - output: `[batch, out_height, out_width, channels]`
     pub(crate) fn forward(&self, input: &[f32], weight: &[f32]) -> Buffer {
         let weight = self.repeated(weight);
-        let mut output = Buffer::stale(self.batch * self.image_out());
+        let mut output = Buffer::recycled(self.batch * self.image_out());
         output
             .par_chunks_exact_mut(self.image_out())
             .zip(input.par_chunks_exact(self.image_in()))
             .for_each(|(output, image)| {
-                let mut seen = Buffer::stale(self.rows() * self.line());
-                self.copy(image, &mut seen);
+                let mut patch = Buffer::recycled(self.rows() * self.line());
+                self.copy(image, &mut patch);
                 let outputs = output.chunks_exact_mut(self.out_width() * self.channels);
                 for (y, output) in outputs.enumerate() {
                     let taps = (0..self.taps()).map(|tap| {
@@ -126,7 +126,7 @@ impl Depthwise {
                         let from = (y * self.stride + row) * self.line() + self.column(column);
                         (from, tap * self.period())
                     });
-                    Row::new(&seen, &weight, self.period(), output, taps).compute();
+                    Row::new(&patch, &weight, self.period(), output, taps).compute();
                 }
             });
         output
@@ -142,43 +142,43 @@ impl Depthwise {
     ) -> (Buffer, Buffer) {
         let repeated = self.repeated(weight);
         let part = self.batch.div_ceil(PARTS).max(1);
-        let mut of_input = Buffer::stale(self.batch * self.image_in());
-        let sums: Vec<Buffer> = of_input
+        let mut grad_input = Buffer::recycled(self.batch * self.image_in());
+        let sums: Vec<Buffer> = grad_input
             .par_chunks_mut(part * self.image_in())
             .zip(input.par_chunks(part * self.image_in()))
             .zip(gradient.par_chunks(part * self.image_out()))
-            .map(|((of_input, input), gradient)| {
+            .map(|((grad_input, input), gradient)| {
                 let mut sums = Buffer::zeros(self.taps() * self.period());
-                let mut seen = Buffer::stale(self.rows() * self.line());
-                let images = of_input
+                let mut patch = Buffer::recycled(self.rows() * self.line());
+                let images = grad_input
                     .chunks_exact_mut(self.image_in())
                     .zip(input.chunks_exact(self.image_in()))
                     .zip(gradient.chunks_exact(self.image_out()));
-                for ((of_image, image), gradient) in images {
+                for ((grad_image, image), gradient) in images {
                     if wants_weight {
-                        self.copy(image, &mut seen);
+                        self.copy(image, &mut patch);
                         WeightSums {
                             depthwise: self,
-                            seen: &seen,
+                            patch: &patch,
                             gradient,
                             sums: &mut sums,
                         }
                         .compute();
                     }
-                    self.image_gradient(image, gradient, &repeated, of_image);
+                    self.image_gradient(image, gradient, &repeated, grad_image);
                 }
                 sums
             })
             .collect();
-        let mut of_weight = Buffer::zeros(weight.len());
+        let mut grad_weight = Buffer::zeros(weight.len());
         for sums in sums {
             for (tap, row) in sums.chunks_exact(self.period()).enumerate() {
                 for (place, value) in row.iter().enumerate() {
-                    of_weight[place % self.channels * self.taps() + tap] += value;
+                    grad_weight[place % self.channels * self.taps() + tap] += value;
                 }
             }
         }
-        (of_input, of_weight)
+        (grad_input, grad_weight)
     }
 
     fn image_gradient(
@@ -186,7 +186,7 @@ impl Depthwise {
         image: &[f32],
         gradient: &[f32],
         weight: &[f32],
-        of_image: &mut [f32],
+        grad_image: &mut [f32],
     ) {
         let (channels, padding) = (self.channels, self.size / 2);
         // Zeros left and right of the gradient's rows, so that every tap finds something.
@@ -201,16 +201,16 @@ impl Depthwise {
             padded[beside..beside + width].copy_from_slice(row);
         }
         let columns = self.columns() * channels;
-        let mut line = Buffer::stale(self.line());
-        let rows = of_image
+        let mut line = Buffer::recycled(self.line());
+        let rows = grad_image
             .chunks_exact_mut(self.width * channels)
             .zip(image.chunks_exact(self.width * channels));
-        for (y, (of_row, row)) in rows.enumerate() {
-            let seen = y + padding;
+        for (y, (grad_row, row)) in rows.enumerate() {
+            let patch = y + padding;
             for (parity, line) in line.chunks_exact_mut(columns).enumerate() {
                 let taps = (0..self.taps()).filter_map(|tap| {
                     let (row, column) = (tap / self.size, tap % self.size);
-                    let above = seen.checked_sub(row)?;
+                    let above = patch.checked_sub(row)?;
                     let fits = above % self.stride == 0
                         && above / self.stride < self.out_height()
                         && column % self.stride == parity;
@@ -223,17 +223,17 @@ impl Depthwise {
                 Row::new(&gradients, weight, self.period(), line, taps).compute();
             }
             pulp::Arch::new().dispatch(|| {
-                let pixels = of_row
+                let pixels = grad_row
                     .chunks_exact_mut(channels)
                     .zip(row.chunks_exact(channels));
-                for (x, (of_pixel, pixel)) in pixels.enumerate() {
+                for (x, (grad_pixel, pixel)) in pixels.enumerate() {
                     if (x + padding) / self.stride >= self.columns() {
-                        of_pixel.fill(0.0);
+                        grad_pixel.fill(0.0);
                         continue;
                     }
                     let from = self.column(x + padding);
                     let line = &line[from..from + channels];
-                    for ((value, found), input) in of_pixel.iter_mut().zip(line).zip(pixel) {
+                    for ((value, found), input) in grad_pixel.iter_mut().zip(line).zip(pixel) {
                         *value = if *input > 0.0 { *found } else { 0.0 };
                     }
                 }
@@ -352,7 +352,7 @@ impl Row<'_> {
 /// Sums of products of inputs and gradients: `[taps, period]`.
 struct WeightSums<'a> {
     depthwise: &'a Depthwise,
-    seen: &'a [f32],
+    patch: &'a [f32],
     gradient: &'a [f32],
     sums: &'a mut [f32],
 }
@@ -365,7 +365,7 @@ impl WeightSums<'_> {
     fn check(&self) {
         let depthwise = self.depthwise;
         assert!(
-            self.seen.len() >= depthwise.rows() * depthwise.line()
+            self.patch.len() >= depthwise.rows() * depthwise.line()
                 && self.gradient.len() >= depthwise.image_out()
                 && self.sums.len() >= depthwise.taps() * depthwise.period(),
             "sums reach beyond their image"
@@ -399,7 +399,7 @@ impl WeightSums<'_> {
             for place in (0..period).step_by(S::F32_LANES) {
                 let mut sums = [simd.splat_f32s(0.0); K];
                 for y in 0..depthwise.out_height() {
-                    let seen = (y * depthwise.stride + tap_row) * line;
+                    let patch = (y * depthwise.stride + tap_row) * line;
                     for from in (place..width).step_by(period) {
                         let lanes = Lanes::new(simd, width - from);
                         // SAFETY: `check` has seen the buffers; a shifted row ends inside its line.
@@ -407,7 +407,7 @@ impl WeightSums<'_> {
                             let gradient = self.gradient.as_ptr().add(y * width + from);
                             let gradient = lanes.load(gradient);
                             for (sum, start) in sums.iter_mut().zip(starts) {
-                                let value = self.seen.as_ptr().add(seen + start + from);
+                                let value = self.patch.as_ptr().add(patch + start + from);
                                 *sum = simd.mul_add_e_f32s(lanes.load(value), gradient, *sum);
                             }
                         }

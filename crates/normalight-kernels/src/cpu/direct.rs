@@ -60,8 +60,8 @@ pub(crate) fn forward(
         return;
     }
     let window = window(geometry, &rows);
-    let mut seen = Buffer::stale(window.floats(channels_in));
-    copy_window(geometry, window, image, &mut seen);
+    let mut patch = Buffer::recycled(window.floats(channels_in));
+    copy_window(geometry, window, image, &mut patch);
     let line = window.columns * channels_in;
     let run = geometry.size * channels_in;
     for (row, output) in output.chunks_exact_mut(width * channels_out).enumerate() {
@@ -69,7 +69,7 @@ pub(crate) fn forward(
             size: [width, channels_out],
             counts: [geometry.size, run],
             left: Left {
-                values: &seen[row * geometry.stride * line..],
+                values: &patch[row * geometry.stride * line..],
                 row: geometry.stride * channels_in,
                 steps: [line, 1],
             },
@@ -89,14 +89,14 @@ pub(crate) fn forward(
 /// where weights or input are empty, they are not wanted.
 pub(crate) fn add_gradients(
     part: &Part<'_>,
-    of_weight: &mut [f32],
-    of_bias: &mut [f32],
-    of_input: &mut [f32],
+    grad_weight: &mut [f32],
+    grad_bias: &mut [f32],
+    grad_input: &mut [f32],
 ) {
     let geometry = part.geometry;
     // Without activation the gradients of the sums are those of the output.
     let copied = part.slope != 1.0 || part.wants_bias;
-    let mut before = Buffer::stale(if copied { geometry.image_out() } else { 0 });
+    let mut before = Buffer::recycled(if copied { geometry.image_out() } else { 0 });
     let images = part
         .input
         .chunks_exact(geometry.image_in())
@@ -104,19 +104,19 @@ pub(crate) fn add_gradients(
         .zip(part.gradient.chunks_exact(geometry.image_out()));
     for (index, ((image, output), gradient)) in images.enumerate() {
         let before: &[f32] = if copied {
-            before_activation(output, gradient, part.slope, of_bias, &mut before);
+            before_activation(output, gradient, part.slope, grad_bias, &mut before);
             &before
         } else {
             gradient
         };
-        if !of_weight.is_empty() {
-            add_to_weight(geometry, image, before, of_weight);
+        if !grad_weight.is_empty() {
+            add_to_weight(geometry, image, before, grad_weight);
         }
-        if !of_input.is_empty() {
+        if !grad_input.is_empty() {
             let size = geometry.image_in();
-            let of_image = &mut of_input[index * size..(index + 1) * size];
-            of_image.fill(0.0);
-            add_to_image(geometry, part.transposed, before, of_image);
+            let grad_image = &mut grad_input[index * size..(index + 1) * size];
+            grad_image.fill(0.0);
+            add_to_image(geometry, part.transposed, before, grad_image);
         }
     }
 }
@@ -126,33 +126,33 @@ pub(crate) fn add_gradients(
 /// # Shapes
 /// - image: `[stored height, stored width, channels_in]`
 /// - before: gradient of the sums before the activation, `[out_height, out_width, channels_out]`
-/// - of_weight: `[size, size, channels_in, channels_out]`
+/// - grad_weight: `[size, size, channels_in, channels_out]`
 pub(crate) fn add_to_weight(
     geometry: &Geometry,
     image: &[f32],
     before: &[f32],
-    of_weight: &mut [f32],
+    grad_weight: &mut [f32],
 ) {
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     let (height, width) = (geometry.out_height(), geometry.out_width());
     let window = window(geometry, &(0..height));
-    let mut copy = Buffer::stale(0);
-    let seen: &[f32] = if geometry.pointwise() {
+    let mut copy = Buffer::recycled(0);
+    let patch: &[f32] = if geometry.pointwise() {
         image
     } else {
-        copy = Buffer::stale(window.floats(channels_in));
+        copy = Buffer::recycled(window.floats(channels_in));
         copy_window(geometry, window, image, &mut copy);
         &copy
     };
     let line = window.columns * channels_in;
     let run = geometry.size * channels_in;
-    let taps = of_weight.chunks_exact_mut(run * channels_out);
-    for (tap_row, of_weight) in taps.enumerate() {
+    let taps = grad_weight.chunks_exact_mut(run * channels_out);
+    for (tap_row, grad_weight) in taps.enumerate() {
         Product {
             size: [run, channels_out],
             counts: [height, width],
             left: Left {
-                values: &seen[tap_row * line..],
+                values: &patch[tap_row * line..],
                 row: 1,
                 steps: [geometry.stride * line, geometry.stride * channels_in],
             },
@@ -160,7 +160,7 @@ pub(crate) fn add_to_weight(
                 values: before,
                 steps: [width * channels_out, channels_out],
             },
-            output: of_weight,
+            output: grad_weight,
             output_row: channels_out,
             finish: Finish::Added,
         }
@@ -174,12 +174,12 @@ pub(crate) fn add_to_weight(
 /// # Shapes
 /// - transposed: `[channels_out, size, size, channels_in]`
 /// - before: gradient of the sums before the activation, `[out_height, out_width, channels_out]`
-/// - of_image: `[stored height, stored width, channels_in]`
+/// - grad_image: `[stored height, stored width, channels_in]`
 pub(crate) fn add_to_image(
     geometry: &Geometry,
     transposed: &[f32],
     before: &[f32],
-    of_image: &mut [f32],
+    grad_image: &mut [f32],
 ) {
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     let (width, taps) = (geometry.out_width(), geometry.taps());
@@ -196,25 +196,30 @@ pub(crate) fn add_to_image(
         .compute();
     };
     if geometry.pointwise() {
-        product(geometry.out_area(), before, of_image);
+        product(geometry.out_area(), before, grad_image);
         return;
     }
-    let mut unfolded = Buffer::stale(width * taps);
+    let mut unfolded = Buffer::recycled(width * taps);
     let line = geometry.seen_width() * channels_in;
     let run = geometry.size * channels_in;
-    let mut seen = Buffer::stale(geometry.size * line);
+    let mut patch = Buffer::recycled(geometry.size * line);
     for (row, before) in before.chunks_exact(width * channels_out).enumerate() {
         product(width, before, &mut unfolded);
-        seen.fill(0.0);
+        patch.fill(0.0);
         pulp::Arch::new().dispatch(|| {
             for (x, pixel) in unfolded.chunks_exact(taps).enumerate() {
                 let from = x * geometry.stride * channels_in;
-                for (seen, pixel) in seen.chunks_exact_mut(line).zip(pixel.chunks_exact(run)) {
-                    add(&mut seen[from..from + run], pixel);
+                for (patch, pixel) in patch.chunks_exact_mut(line).zip(pixel.chunks_exact(run)) {
+                    add(&mut patch[from..from + run], pixel);
                 }
             }
         });
-        add_window(geometry, window(geometry, &(row..row + 1)), &seen, of_image);
+        add_window(
+            geometry,
+            window(geometry, &(row..row + 1)),
+            &patch,
+            grad_image,
+        );
     }
 }
 
@@ -223,7 +228,7 @@ pub(crate) fn before_activation(
     output: &[f32],
     gradient: &[f32],
     slope: f32,
-    of_bias: &mut [f32],
+    grad_bias: &mut [f32],
     before: &mut [f32],
 ) {
     pulp::Arch::new().dispatch(|| {
@@ -234,8 +239,8 @@ pub(crate) fn before_activation(
                 slope * gradient
             };
         }
-        for pixel in before.chunks_exact(of_bias.len()) {
-            add(of_bias, pixel);
+        for pixel in before.chunks_exact(grad_bias.len()) {
+            add(grad_bias, pixel);
         }
     });
 }

@@ -95,7 +95,7 @@ pub(crate) fn moments(input: &[f32], channels: usize) -> Moments {
 pub(crate) fn scaled(input: &[f32], scale: &[f32], shift: &[f32]) -> Buffer {
     let period = period(scale.len());
     let (scale, shift) = (repeated(scale, period), repeated(shift, period));
-    let mut output = Buffer::stale(input.len());
+    let mut output = Buffer::recycled(input.len());
     let block = block(period);
     output
         .par_chunks_mut(block)
@@ -205,20 +205,20 @@ pub(crate) fn backward(
         .collect();
     let offset: Vec<f32> = (0..channels).map(|k| -scale[k] * beta[k] / count).collect();
     let [scale, slope, offset] = [scale, slope, offset].map(|values| repeated(&values, period));
-    let mut of_input = Buffer::stale(input.len());
-    of_input
+    let mut grad_input = Buffer::recycled(input.len());
+    grad_input
         .par_chunks_mut(block)
         .zip(input.par_chunks(block))
         .zip(gradient.par_chunks(block))
-        .for_each(|((of_input, input), gradient)| {
+        .for_each(|((grad_input, input), gradient)| {
             pulp::Arch::new().dispatch(|| {
-                let chunks = of_input
+                let chunks = grad_input
                     .chunks_mut(period)
                     .zip(input.chunks(period))
                     .zip(gradient.chunks(period));
-                for ((of_input, input), gradient) in chunks {
+                for ((grad_input, input), gradient) in chunks {
                     let factors = scale.iter().zip(&slope).zip(&offset).zip(&mean);
-                    let values = of_input.iter_mut().zip(input).zip(gradient);
+                    let values = grad_input.iter_mut().zip(input).zip(gradient);
                     for (((value, input), gradient), (((scale, slope), offset), mean)) in
                         values.zip(factors)
                     {
@@ -228,7 +228,7 @@ pub(crate) fn backward(
             });
         });
     Gradients {
-        input: of_input,
+        input: grad_input,
         gamma: of_gamma,
         beta,
     }

@@ -21,7 +21,7 @@ pub(crate) fn forward(
     slope: f32,
 ) -> Buffer {
     let transposed = channels_in_last(geometry, weight);
-    let mut output = Buffer::stale(geometry.batch * geometry.image_in());
+    let mut output = Buffer::recycled(geometry.batch * geometry.image_in());
     output
         .par_chunks_exact_mut(geometry.image_in())
         .zip(input.par_chunks_exact(geometry.image_out()))
@@ -50,34 +50,34 @@ pub(crate) fn backward(
     let none = Buffer::zeros(geometry.channels_out);
     let (size_in, size_out) = (geometry.image_out(), geometry.image_in());
     let part = geometry.batch.div_ceil(PARTS).max(1);
-    let mut of_input = Buffer::stale(geometry.batch * size_in);
-    let sums: Vec<(Buffer, Buffer)> = of_input
+    let mut grad_input = Buffer::recycled(geometry.batch * size_in);
+    let sums: Vec<(Buffer, Buffer)> = grad_input
         .par_chunks_mut(part * size_in)
         .zip(input.par_chunks(part * size_in))
         .zip(output.par_chunks(part * size_out))
         .zip(gradient.par_chunks(part * size_out))
-        .map(|(((of_input, input), output), gradient)| {
-            let mut of_weight = Buffer::zeros(weight.len());
-            let mut of_bias = Buffer::zeros(geometry.channels_in);
-            let mut before = Buffer::stale(size_out);
-            let images = of_input
+        .map(|(((grad_input, input), output), gradient)| {
+            let mut grad_weight = Buffer::zeros(weight.len());
+            let mut grad_bias = Buffer::zeros(geometry.channels_in);
+            let mut before = Buffer::recycled(size_out);
+            let images = grad_input
                 .chunks_exact_mut(size_in)
                 .zip(input.chunks_exact(size_in))
                 .zip(output.chunks_exact(size_out))
                 .zip(gradient.chunks_exact(size_out));
-            for (((of_image, image), output), gradient) in images {
-                before_activation(output, gradient, slope, &mut of_bias, &mut before);
-                add_to_weight(geometry, &before, image, &mut of_weight);
+            for (((grad_image, image), output), gradient) in images {
+                before_activation(output, gradient, slope, &mut grad_bias, &mut before);
+                add_to_weight(geometry, &before, image, &mut grad_weight);
                 let rows = 0..geometry.out_height();
-                direct::forward(geometry, rows, &before, &last, &none, 1.0, of_image);
+                direct::forward(geometry, rows, &before, &last, &none, 1.0, grad_image);
             }
-            (of_weight, of_bias)
+            (grad_weight, grad_bias)
         })
         .collect();
-    let (of_weight, bias) = sum_parts(sums);
+    let (grad_weight, bias) = sum_parts(sums);
     Gradients {
-        input: Some(of_input),
-        weight: Some(channels_first(geometry, &of_weight)),
+        input: Some(grad_input),
+        weight: Some(channels_first(geometry, &grad_weight)),
         bias,
     }
 }

@@ -168,8 +168,8 @@ mod tests {
         let (input, weight) = (wave(2 * depthwise.image_in(), 0.7), wave(20 * 25, 0.3));
         let output = depthwise.forward(&input, &weight);
         let gradient = wave(output.len(), 0.9);
-        let (of_input, of_weight) = depthwise.backward(&input, &weight, &gradient, true);
-        for part in [output, of_input, of_weight] {
+        let (grad_input, grad_weight) = depthwise.backward(&input, &weight, &gradient, true);
+        for part in [output, grad_input, grad_weight] {
             all.extend_from_slice(&part);
         }
         LEVEL.set(Level::Widest);

@@ -3,8 +3,8 @@
 //! The image is cut into tiles of 4x4 outputs. Each tile's 6x6 inputs are transformed; for each of the 36 points a
 //! matrix product over the channels follows, and its result is transformed back. The gradients are the transposes of
 //! these steps, so they need a quarter of the multiplications, too.
-mod kernels;
 mod tiles;
+mod weights;
 
 use crate::cpu::buffer::Buffer;
 use crate::cpu::convolution::Part;
@@ -12,9 +12,9 @@ use crate::cpu::geometry::Geometry;
 use crate::cpu::product::{Finish, Left, Product, Right};
 use crate::cpu::transforms::{KEPT, POINTS, SIDE};
 use crate::cpu::window::{Window, add_window, copy_window};
-use kernels::{KernelGradients, Kernels};
 use std::ops::Range;
 use tiles::{Gather, Points, Scatter, Spread, Write};
+use weights::{WeightGradientTransform, WeightTransform};
 
 /// Floats of a block's transformed tiles, input and output: they stay in the second-level cache.
 const BLOCK: usize = 160_000;
@@ -41,8 +41,8 @@ pub(crate) fn suits(geometry: &Geometry) -> bool {
 /// # Shapes
 /// - weight: `[3, 3, channels_in, channels_out]`, or the channels the other way round
 pub(crate) fn transform_weights(weight: &[f32]) -> Buffer {
-    let mut points = Buffer::stale(weight.len() / TAPS * POINTS);
-    Kernels {
+    let mut points = Buffer::recycled(weight.len() / TAPS * POINTS);
+    WeightTransform {
         weight,
         points: &mut points,
     }
@@ -52,8 +52,8 @@ pub(crate) fn transform_weights(weight: &[f32]) -> Buffer {
 
 /// Gradients of the weights from those of [`transform_weights`].
 pub(crate) fn transform_weight_gradients(points: &[f32]) -> Buffer {
-    let mut weight = Buffer::stale(points.len() / POINTS * TAPS);
-    KernelGradients {
+    let mut weight = Buffer::recycled(points.len() / POINTS * TAPS);
+    WeightGradientTransform {
         points,
         weight: &mut weight,
     }
@@ -128,14 +128,14 @@ pub(crate) fn forward(
             channels: channels_out,
         },
     );
-    let mut seen = Buffer::stale(seen_at.floats());
-    let mut sums = Buffer::stale(sums_at.floats());
-    gather(geometry, &grid, rows.clone(), input, &mut seen);
+    let mut patch = Buffer::recycled(seen_at.floats());
+    let mut sums = Buffer::recycled(sums_at.floats());
+    gather(geometry, &grid, rows.clone(), input, &mut patch);
     for point in 0..POINTS {
         Product {
             size: [tiles, channels_out],
             counts: [1, channels_in],
-            left: Left::rows(&seen[point * seen_at.plane()..], channels_in),
+            left: Left::rows(&patch[point * seen_at.plane()..], channels_in),
             right: Right::rows(&points[point * channels_in * channels_out..], channels_out),
             output: &mut sums[point * sums_at.plane()..],
             output_row: channels_out,
@@ -177,14 +177,14 @@ fn gather(
         channels,
     };
     let size = grid.window(geometry, 0).floats(channels);
-    let mut seen = Buffer::stale(size);
+    let mut patch = Buffer::recycled(size);
     for (index, row) in rows.enumerate() {
         let window = grid.window(geometry, row);
         let image = row / grid.per_image * geometry.image_in();
         let image = &input[image..image + geometry.image_in()];
-        copy_window(geometry, window, image, &mut seen);
+        copy_window(geometry, window, image, &mut patch);
         Gather {
-            window: &seen,
+            window: &patch,
             columns: window.columns,
             tiles: grid.tiles,
             points,
@@ -200,15 +200,15 @@ fn gather(
 pub(crate) fn add_gradients(
     part: &Part<'_>,
     of_points: &mut [f32],
-    of_bias: &mut [f32],
-    of_input: &mut [f32],
+    grad_bias: &mut [f32],
+    grad_input: &mut [f32],
 ) {
     let grid = TileRows::new(part.geometry);
     let images = part.output.len() / part.geometry.image_out();
     let rows = images * grid.per_image;
     for first in (0..rows).step_by(grid.block) {
         let block = first..rows.min(first + grid.block);
-        add_block(part, &grid, block, of_points, of_bias, of_input);
+        add_block(part, &grid, block, of_points, grad_bias, grad_input);
     }
 }
 
@@ -217,8 +217,8 @@ fn add_block(
     grid: &TileRows,
     rows: Range<usize>,
     of_points: &mut [f32],
-    of_bias: &mut [f32],
-    of_input: &mut [f32],
+    grad_bias: &mut [f32],
+    grad_input: &mut [f32],
 ) {
     let geometry = part.geometry;
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
@@ -233,10 +233,10 @@ fn add_block(
             channels: channels_out,
         },
     );
-    let mut seen = Buffer::stale(seen_at.floats());
-    let mut sums = Buffer::stale(sums_at.floats());
+    let mut patch = Buffer::recycled(seen_at.floats());
+    let mut sums = Buffer::recycled(sums_at.floats());
     if !of_points.is_empty() {
-        gather(geometry, grid, rows.clone(), part.input, &mut seen);
+        gather(geometry, grid, rows.clone(), part.input, &mut patch);
     }
     for (index, row) in rows.clone().enumerate() {
         let kept = grid.out_rows(geometry, row);
@@ -249,7 +249,7 @@ fn add_block(
             slope: part.slope,
             rows: kept.len(),
             columns: geometry.width(),
-            bias: of_bias,
+            bias: grad_bias,
             points: &mut sums,
             place: sums_at,
             first: index * grid.tiles,
@@ -258,14 +258,14 @@ fn add_block(
         .run();
     }
     for point in 0..POINTS {
-        let seen = &mut seen[point * seen_at.plane()..][..tiles * channels_in];
+        let patch = &mut patch[point * seen_at.plane()..][..tiles * channels_in];
         let sums = &sums[point * sums_at.plane()..];
         if !of_points.is_empty() {
             Product {
                 size: [channels_in, channels_out],
                 counts: [1, tiles],
                 left: Left {
-                    values: seen,
+                    values: patch,
                     row: 1,
                     steps: [0, channels_in],
                 },
@@ -276,7 +276,7 @@ fn add_block(
             }
             .compute();
         }
-        if of_input.is_empty() {
+        if grad_input.is_empty() {
             continue;
         }
         Product {
@@ -287,14 +287,14 @@ fn add_block(
                 &part.transposed[point * channels_in * channels_out..],
                 channels_in,
             ),
-            output: seen,
+            output: patch,
             output_row: channels_in,
             finish: Finish::Stored,
         }
         .compute();
     }
-    if !of_input.is_empty() {
-        scatter(geometry, grid, rows, &seen, of_input);
+    if !grad_input.is_empty() {
+        scatter(geometry, grid, rows, &patch, grad_input);
     }
 }
 
@@ -304,14 +304,14 @@ fn scatter(
     grid: &TileRows,
     rows: Range<usize>,
     points: &[f32],
-    of_input: &mut [f32],
+    grad_input: &mut [f32],
 ) {
     let channels = geometry.channels_in;
     let place = Points {
         tiles: rows.len() * grid.tiles,
         channels,
     };
-    let mut seen = Buffer::stale(grid.window(geometry, 0).floats(channels));
+    let mut patch = Buffer::recycled(grid.window(geometry, 0).floats(channels));
     for (index, row) in rows.enumerate() {
         let window = grid.window(geometry, row);
         Scatter {
@@ -319,15 +319,15 @@ fn scatter(
             place,
             first: index * grid.tiles,
             tiles: grid.tiles,
-            window: &mut seen,
+            window: &mut patch,
             columns: window.columns,
         }
         .run();
         let image = row / grid.per_image * geometry.image_in();
-        let image = &mut of_input[image..image + geometry.image_in()];
+        let image = &mut grad_input[image..image + geometry.image_in()];
         if row.is_multiple_of(grid.per_image) {
             image.fill(0.0);
         }
-        add_window(geometry, window, &seen, image);
+        add_window(geometry, window, &patch, image);
     }
 }

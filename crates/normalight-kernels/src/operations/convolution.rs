@@ -60,7 +60,7 @@ pub fn convolution(
     #[cfg(feature = "flex")]
     if super::on_flex(&input) {
         use burn::backend::Dispatch;
-        return Tensor::from_dispatch(<Dispatch as crate::backend::Kernels>::convolution(
+        return Tensor::from_dispatch(<Dispatch as crate::backend::KernelBackend>::convolution(
             input.into_dispatch(),
             weight.into_dispatch(),
             bias.into_dispatch(),

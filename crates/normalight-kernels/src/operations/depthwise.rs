@@ -23,7 +23,7 @@ pub fn depthwise_relu(input: Tensor<4>, weight: Tensor<4>, stride: usize) -> Ten
     #[cfg(feature = "flex")]
     if super::on_flex(&input) && crate::cpu::depthwise::Depthwise::SIZES.contains(&size) {
         use burn::backend::Dispatch;
-        return Tensor::from_dispatch(<Dispatch as crate::backend::Kernels>::depthwise_relu(
+        return Tensor::from_dispatch(<Dispatch as crate::backend::KernelBackend>::depthwise_relu(
             input.into_dispatch(),
             weight.into_dispatch(),
             stride,

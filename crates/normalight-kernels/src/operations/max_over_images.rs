@@ -17,10 +17,12 @@ pub fn max_over_images(input: Tensor<4>, samples: usize) -> Tensor<4> {
     #[cfg(feature = "flex")]
     if super::on_flex(&input) {
         use burn::backend::Dispatch;
-        return Tensor::from_dispatch(<Dispatch as crate::backend::Kernels>::max_over_images(
-            input.into_dispatch(),
-            samples,
-        ));
+        return Tensor::from_dispatch(
+            <Dispatch as crate::backend::KernelBackend>::max_over_images(
+                input.into_dispatch(),
+                samples,
+            ),
+        );
     }
     input
         .reshape([samples, rows / samples, height * width * channels])

@@ -19,7 +19,7 @@ impl BatchMoments {
         if super::on_flex(&input) {
             use burn::backend::Dispatch;
             let both =
-                <Dispatch as crate::backend::Kernels>::channel_moments(input.into_dispatch());
+                <Dispatch as crate::backend::KernelBackend>::channel_moments(input.into_dispatch());
             let both = Tensor::<2>::from_dispatch(both);
             let row = |k: usize| {
                 both.clone()
@@ -59,7 +59,7 @@ pub fn batch_norm(
     #[cfg(feature = "flex")]
     if super::on_flex(&input) {
         use burn::backend::Dispatch;
-        return Tensor::from_dispatch(<Dispatch as crate::backend::Kernels>::batch_norm(
+        return Tensor::from_dispatch(<Dispatch as crate::backend::KernelBackend>::batch_norm(
             input.into_dispatch(),
             moments.mean.clone().into_dispatch(),
             moments.variance.clone().into_dispatch(),

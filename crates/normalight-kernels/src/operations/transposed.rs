@@ -32,7 +32,7 @@ pub fn transposed_convolution(
     if super::on_flex(&input) {
         use burn::backend::Dispatch;
         return Tensor::from_dispatch(
-            <Dispatch as crate::backend::Kernels>::transposed_convolution(
+            <Dispatch as crate::backend::KernelBackend>::transposed_convolution(
                 input.into_dispatch(),
                 weight.into_dispatch(),
                 bias.into_dispatch(),

@@ -29,8 +29,8 @@ pub(crate) fn shade(
                 if surfaces.shiny {
                     add_highlights(&mut light, points, surfaces, &setting, start);
                 }
-                for (substance, tint) in measured.iter().zip(&surfaces.measured) {
-                    add_measured(&mut light, substance, tint, points, &setting, start);
+                for (layer, tint) in measured.iter().zip(&surfaces.measured) {
+                    add_measured(&mut light, layer, tint, points, &setting, start);
                 }
                 for (plane, light) in planes.iter_mut().zip(&light) {
                     let plane = lanes_mut(plane, start);
@@ -191,7 +191,7 @@ fn add_highlights(
 #[inline(always)]
 fn add_measured(
     light: &mut [Lanes; 3],
-    substance: &Measured,
+    layer: &Measured,
     tint: &[Vec<f32>; 3],
     points: &Points,
     setting: &Setting,
@@ -208,7 +208,7 @@ fn add_measured(
             + l[1] * (n[2] * h[0] - n[0] * h[2])
             + l[2] * (n[0] * h[1] - n[1] * h[0]);
     }
-    let values = substance.reflectance(&Geometry {
+    let values = layer.reflectance(&Geometry {
         to_lamp: setting.n_l,
         to_half: setting.n_h,
         lamp_to_half: setting.l_h,

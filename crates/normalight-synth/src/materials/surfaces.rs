@@ -1,5 +1,5 @@
+use super::material::Material;
 use super::measured::Measured;
-use super::paint::Paint;
 use crate::lanes::padded;
 use crate::noise::Lattice;
 use glam::Vec3;
@@ -26,11 +26,11 @@ pub(crate) struct Surface {
     pub(crate) sheen: f32,
     /// Axis that brushing runs around.
     pub(crate) axis: Vec3,
-    /// Colour factors of the paint's measured substances: how much of each is here.
+    /// Colour factors of the material's measured layers: how much of each is here.
     pub(crate) measured: [Vec3; MAX_SUBSTANCES],
 }
 
-/// Most substances of one paint.
+/// Most layers of one material.
 pub(crate) const MAX_SUBSTANCES: usize = 3;
 
 impl Surface {
@@ -79,7 +79,7 @@ pub(crate) struct Surfaces {
     pub(crate) sheen: Vec<f32>,
     /// Unit vector along the brushing, at right angles to the normal.
     pub(crate) tangent: [Vec<f32>; 3],
-    /// Colour factors for each measured substance.
+    /// Colour factors for each measured layer.
     pub(crate) measured: Vec<[Vec<f32>; 3]>,
     /// Share of light from all around that is scattered, by everything the point is made of.
     pub(crate) scattered: [Vec<f32>; 3],
@@ -88,11 +88,11 @@ pub(crate) struct Surfaces {
 }
 
 impl Surfaces {
-    /// Of a paint at the given points.
-    pub(crate) fn new(paint: &Paint, places: &[Vec3], normals: &[Vec3]) -> Self {
+    /// Of a material at the given points.
+    pub(crate) fn new(material: &Material, places: &[Vec3], normals: &[Vec3]) -> Self {
         let lattice = Lattice::shared();
-        let surfaces = places.iter().map(|&place| paint.at(lattice, place));
-        Self::from_iter(surfaces, normals, paint.measured())
+        let surfaces = places.iter().map(|&place| material.at(lattice, place));
+        Self::from_iter(surfaces, normals, material.measured())
     }
 
     /// One for every normal.
@@ -131,8 +131,8 @@ impl Surfaces {
         let tangent = tangent.normalize_or(normal.any_orthonormal_vector());
         let mut scattered = surface.albedo
             + surface.f0 * (0.5 * (surface.weights[0] + surface.weights[1]).min(1.0));
-        for (k, substance) in measured.iter().enumerate() {
-            scattered += surface.measured[k] * substance.scattered();
+        for (k, layer) in measured.iter().enumerate() {
+            scattered += surface.measured[k] * layer.scattered();
         }
         for channel in 0..3 {
             self.albedo[channel][index] = surface.albedo[channel];

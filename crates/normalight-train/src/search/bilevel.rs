@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 /// Length of the step of the finite difference, as in DARTS.
 const DIFFERENCE: f64 = 0.01;
 
-/// Numbers of a network by the names of its parts, in double precision.
-pub(super) type Numbers = BTreeMap<String, Vec<f64>>;
+/// NamedTensorsF64 of a network by the names of its parts, in double precision.
+pub(super) type NamedTensorsF64 = BTreeMap<String, Vec<f64>>;
 
 /// Whether a parameter is one of the architecture, by its name.
 pub(super) fn is_alpha(name: &str) -> bool {
@@ -18,13 +18,13 @@ pub(super) fn is_alpha(name: &str) -> bool {
 
 /// A loss and its gradient.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Slope {
+pub(super) struct LossAndGradient {
     pub(super) loss: f64,
     /// By all parameters that have one.
-    pub(super) gradient: Numbers,
+    pub(super) gradient: NamedTensorsF64,
 }
 
-impl Slope {
+impl LossAndGradient {
     pub(super) fn of<M: Module>(network: &M, loss: Tensor<1>) -> Self {
         let gradients = loss.backward();
         Self {
@@ -41,11 +41,14 @@ impl Slope {
 }
 
 /// Gradient of the validation loss by the architecture at the weights as they are: first order.
-pub(super) fn first_order<M: Module>(network: &M, loss: impl Fn(&M) -> Tensor<1>) -> Slope {
+pub(super) fn first_order<M: Module>(
+    network: &M,
+    loss: impl Fn(&M) -> Tensor<1>,
+) -> LossAndGradient {
     // Nobody asks for the weights' gradients: that saves their share of the backward pass.
     let network = network.clone().map(&mut Freezer::default());
     let loss = loss(&network);
-    Slope::of(&network, loss).only(is_alpha)
+    LossAndGradient::of(&network, loss).only(is_alpha)
 }
 
 /// Gradient by the architecture of the validation loss after one plain gradient step of the weights on training data,
@@ -56,11 +59,11 @@ pub(super) fn second_order<M: Module>(
     rate: f64,
     training: impl Fn(&M) -> Tensor<1>,
     validation: impl Fn(&M) -> Tensor<1>,
-) -> Slope {
+) -> LossAndGradient {
     let is_weight = |name: &str| !is_alpha(name);
-    let step = Slope::of(network, training(network)).only(is_weight);
+    let step = LossAndGradient::of(network, training(network)).only(is_weight);
     let stepped = shifted(network, &step.gradient, -rate);
-    let mut slope = Slope::of(&stepped, validation(&stepped));
+    let mut slope = LossAndGradient::of(&stepped, validation(&stepped));
     let mut direction = slope.gradient.clone();
     direction.retain(|name, _| is_weight(name));
     let square: f64 = direction
@@ -85,7 +88,7 @@ pub(super) fn second_order<M: Module>(
     slope
 }
 
-fn add(sum: &mut Numbers, more: &Numbers, factor: f64) {
+fn add(sum: &mut NamedTensorsF64, more: &NamedTensorsF64, factor: f64) {
     for (name, values) in more {
         if let Some(sum) = sum.get_mut(name) {
             for (sum, value) in sum.iter_mut().zip(values) {
@@ -96,7 +99,7 @@ fn add(sum: &mut Numbers, more: &Numbers, factor: f64) {
 }
 
 /// The network with a multiple of `direction` added to the parameters that it names.
-fn shifted<M: Module>(network: &M, direction: &Numbers, factor: f64) -> M {
+fn shifted<M: Module>(network: &M, direction: &NamedTensorsF64, factor: f64) -> M {
     network.clone().map(&mut Shifter {
         direction,
         factor,
@@ -105,7 +108,7 @@ fn shifted<M: Module>(network: &M, direction: &Numbers, factor: f64) -> M {
 }
 
 struct Shifter<'a> {
-    direction: &'a Numbers,
+    direction: &'a NamedTensorsF64,
     factor: f64,
     path: Vec<String>,
 }
@@ -174,7 +177,7 @@ mod tests {
         last: Param<Tensor<2>>,
     }
 
-    /// Numbers between -1 and 1 that follow no pattern.
+    /// NamedTensorsF64 between -1 and 1 that follow no pattern.
     fn tensor(size: [usize; 2], seed: f64, device: &Device) -> Tensor<2> {
         let numbers = (0..size[0] * size[1]).map(|k| (1.7 * k as f64 + seed * seed).sin());
         let data = TensorData::new(numbers.collect::<Vec<f64>>(), size);
@@ -219,7 +222,7 @@ mod tests {
             move |network: &Tiny| network.loss(seed, &device)
         });
         let after_step = |network: &Tiny| -> f64 {
-            let step = Slope::of(network, training(network)).only(|name| !is_alpha(name));
+            let step = LossAndGradient::of(network, training(network)).only(|name| !is_alpha(name));
             let loss = validation(&shifted(network, &step.gradient, -RATE));
             loss.into_data().iter::<f64>().sum()
         };
@@ -228,13 +231,13 @@ mod tests {
             .map(|k| {
                 let mut direction = vec![0.0; 3];
                 direction[k] = 1.0;
-                let direction = Numbers::from([("relaxation".to_owned(), direction)]);
+                let direction = NamedTensorsF64::from([("relaxation".to_owned(), direction)]);
                 let side = |by: f64| after_step(&shifted(&network, &direction, by));
                 (side(SMALL) - side(-SMALL)) / (2.0 * SMALL)
             })
             .collect();
         let length = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let error = |slope: &Slope| {
+        let error = |slope: &LossAndGradient| {
             let found = &slope.gradient["relaxation"];
             let off: Vec<f64> = found.iter().zip(&brute).map(|(a, b)| a - b).collect();
             length(&off) / length(&brute)

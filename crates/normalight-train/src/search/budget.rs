@@ -3,8 +3,8 @@ use crate::recipe::check;
 use crate::{Network, TrainError, TrainRecipe};
 use burn::tensor::Tensor;
 use normalight_model::{
-    Cell, CellPlacement, LightBody, NormalBody, Operation, Relaxation, SearchSpace,
-    light_placements, normal_placements, operation_cost,
+    Cell, CellSite, LightBody, NormalBody, Operation, Relaxation, SearchSpace, light_cell_sites,
+    normal_cell_sites, operation_cost,
 };
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -115,15 +115,15 @@ impl OperationTimes {
 }
 
 /// Where the cells of a recipe's network stand, at the recipe's size.
-pub fn placements(recipe: &TrainRecipe) -> Vec<CellPlacement> {
+pub fn placements(recipe: &TrainRecipe) -> Vec<CellSite> {
     let area = recipe.size * recipe.size;
     match recipe.network {
         Network::Light => match &recipe.light.architecture.body {
-            LightBody::Cells(cells) => light_placements(cells, area).concat(),
+            LightBody::Cells(cells) => light_cell_sites(cells, area).concat(),
             LightBody::Plain(_) => Vec::new(),
         },
         Network::Normal => match &recipe.normal.architecture.body {
-            NormalBody::Cells(cells) => normal_placements(cells, area).concat(),
+            NormalBody::Cells(cells) => normal_cell_sites(cells, area).concat(),
             NormalBody::Plain(_) => Vec::new(),
         },
     }
@@ -222,7 +222,7 @@ fn time(
     budget: &Budget,
     times: &Option<OperationTimes>,
     operation: Operation,
-    place: &CellPlacement,
+    place: &CellSite,
     from: usize,
 ) -> Result<OperationTime, TrainError> {
     let stride = if place.reduces && from < 2 { 2 } else { 1 };

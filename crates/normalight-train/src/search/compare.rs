@@ -5,7 +5,7 @@ mod report;
 mod times;
 mod width;
 
-pub use report::{Compared, Comparison, EntryKind, Group, SeedResult};
+pub use report::{Comparison, EntryKind, EntryResult, Group, SeedResult};
 
 use crate::light_task::LightTask;
 use crate::normal_task::NormalTask;
@@ -90,13 +90,13 @@ pub fn compare(
     mut observe: impl FnMut(CompareEvent) -> ControlFlow<()>,
 ) -> Result<Comparison, TrainError> {
     match run.recipe.network {
-        Network::Light => Contest::<LightTask>::prepare(run, device)?.hold(&mut observe),
-        Network::Normal => Contest::<NormalTask>::prepare(run, device)?.hold(&mut observe),
+        Network::Light => ComparisonRunner::<LightTask>::prepare(run, device)?.run(&mut observe),
+        Network::Normal => ComparisonRunner::<NormalTask>::prepare(run, device)?.run(&mut observe),
     }
 }
 
 /// Everything read and checked, nothing written yet.
-struct Contest<'a, T> {
+struct ComparisonRunner<'a, T> {
     run: &'a CompareRun,
     device: &'a Device,
     entries: Vec<Entry>,
@@ -109,7 +109,7 @@ struct Contest<'a, T> {
     maker: SampleMaker<T>,
 }
 
-impl<'a, T: Task> Contest<'a, T> {
+impl<'a, T: Task> ComparisonRunner<'a, T> {
     fn prepare(run: &'a CompareRun, device: &'a Device) -> Result<Self, TrainError> {
         let recipe = &run.recipe;
         check_schedule(recipe)?;
@@ -151,7 +151,7 @@ impl<'a, T: Task> Contest<'a, T> {
         })
     }
 
-    fn hold(
+    fn run(
         mut self,
         observe: &mut impl FnMut(CompareEvent) -> ControlFlow<()>,
     ) -> Result<Comparison, TrainError> {
@@ -235,7 +235,7 @@ impl<'a, T: Task> Contest<'a, T> {
             multiply_adds: self.multiply_adds,
             recipe_sha256: crate::checkpoint::hash_of(self.common.as_bytes()),
             entries: entries
-                .map(|(entry, recipe)| Compared::new(entry, recipe))
+                .map(|(entry, recipe)| EntryResult::new(entry, recipe))
                 .collect(),
             groups: Vec::new(),
         }

@@ -3,11 +3,11 @@ use super::budget::Costs;
 use super::derive::derive;
 use super::drawing::{cell_svg, weights_svg};
 use super::history::History;
-use super::samples::Halves;
+use super::samples::SplitBatch;
 use super::{Order, SearchRecipe, SearchTask};
 use crate::batch::Batch;
 use crate::data_parallel::scalar;
-use crate::learner::{Learned, Learner};
+use crate::learner::{Learner, StepOutcome};
 use crate::named_tensors::{NamedTensors, collect, fill, put, take};
 use crate::network_learner::seeded;
 use crate::optimiser::{HostGradients, Optimiser};
@@ -91,7 +91,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
     }
 
     /// Loss of the architecture and its gradient.
-    fn alpha_gradients(&self, batch: &Halves, step: usize) -> (f32, HostGradients) {
+    fn alpha_gradients(&self, batch: &SplitBatch, step: usize) -> (f32, HostGradients) {
         let validation = |network: &T::Network| {
             let loss = self.loss(network, &batch.validation);
             match &self.costs {
@@ -117,9 +117,9 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
     }
 
     /// A step of the architecture, and what it gave.
-    fn learn_alpha(&mut self, batch: &Halves, step: usize) -> Learned {
+    fn learn_alpha(&mut self, batch: &SplitBatch, step: usize) -> StepOutcome {
         let (loss, gradients) = self.alpha_gradients(batch, step);
-        let learned = Learned {
+        let learned = StepOutcome {
             loss,
             gradient_norm: gradients.norm,
         };
@@ -183,11 +183,11 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
 }
 
 impl<T: SearchTask> Learner for SearchLearner<'_, T> {
-    type Batch = Halves;
+    type Batch = SplitBatch;
 
     const KEEPS_NEWEST: bool = true;
 
-    fn learn(&mut self, batch: &Halves, step: usize) -> Result<Learned, TrainError> {
+    fn learn(&mut self, batch: &SplitBatch, step: usize) -> Result<StepOutcome, TrainError> {
         let skip = self.auxiliary_skip(step);
         T::relaxation_mut(&mut self.network).set_auxiliary_skip(skip);
         let before = (self.network.clone(), self.alpha_optimiser.clone());
@@ -200,7 +200,7 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
         let loss = self.loss(&self.network, &batch.training);
         let gradients = loss.backward();
         let gradients = HostGradients::new(&self.network, &gradients).only(|name| !is_alpha(name));
-        let learned = Learned {
+        let learned = StepOutcome {
             loss: scalar(loss),
             gradient_norm: gradients.norm,
         };

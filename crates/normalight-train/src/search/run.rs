@@ -8,8 +8,8 @@ use crate::learner::Learner;
 use crate::light_task::LightTask;
 use crate::normal_task::NormalTask;
 use crate::run::{threads, validation_pixels};
-use crate::session::{Job, Session, run_job};
-use crate::training_loop::Pace;
+use crate::session::{RunSpec, Session, run_job};
+use crate::training_loop::LoopSchedule;
 use crate::{Network, Summary, TrainError, TrainEvent};
 use burn::tensor::Device;
 use std::ops::ControlFlow;
@@ -76,7 +76,7 @@ fn derived<T: SearchTask>(
     let mut learner = SearchLearner::<T>::new(recipe, device)?;
     let loaded = checkpoint::load(folder)?;
     learner
-        .restore(loaded.tensors, loaded.standing.step)
+        .restore(loaded.tensors, loaded.training_state.step)
         .map_err(|reason| TrainError::Checkpoint {
             path: loaded.path,
             reason,
@@ -95,14 +95,14 @@ fn search_network<T: SearchTask>(
     let recipe = &run.recipe;
     let mut learner = SearchLearner::<T>::new(recipe, device)?;
     let training = &recipe.training;
-    let job = Job {
+    let spec = RunSpec {
         folder: run.folder.clone(),
         resume: run.resume,
         recipe: recipe.to_toml()?,
         network: training.network,
         parameters: learner.parameters(),
         seed: training.seed,
-        pace: Pace {
+        schedule: LoopSchedule {
             steps: training.steps,
             validate_every: training.validate_every,
             checkpoint_every: training.checkpoint_every,
@@ -111,7 +111,7 @@ fn search_network<T: SearchTask>(
         result: RESULT,
     };
     run_job(
-        &job,
+        &spec,
         observe,
         |session| go(recipe, device, &mut learner, session),
         |summary| card(recipe, summary, &run.command),

@@ -9,7 +9,7 @@ use burn::tensor::Device;
 use std::sync::Arc;
 
 /// What a search takes in at one step: a batch of either half of the data.
-pub(super) struct Halves {
+pub(super) struct SplitBatch {
     /// For the network's weights.
     pub(super) training: Batch,
     /// For the architecture.
@@ -43,7 +43,7 @@ impl<T: Task> HalvesMaker<T> {
 }
 
 impl<T: Task> BatchMaker for HalvesMaker<T> {
-    type Batch = Halves;
+    type Batch = SplitBatch;
 
     fn for_thread(&self) -> Self {
         Self {
@@ -56,8 +56,8 @@ impl<T: Task> BatchMaker for HalvesMaker<T> {
         self.training.together()
     }
 
-    fn make(&mut self, step: usize) -> Result<Halves, TrainError> {
-        Ok(Halves {
+    fn make(&mut self, step: usize) -> Result<SplitBatch, TrainError> {
+        Ok(SplitBatch {
             training: self.training.make(step)?,
             validation: self.validation.make(step)?,
         })

@@ -1,6 +1,6 @@
 //! Steps of a search by themselves, for measuring their speed.
 use super::learner::SearchLearner;
-use super::samples::{Halves, HalvesMaker};
+use super::samples::{HalvesMaker, SplitBatch};
 use super::{SearchRecipe, SearchTask};
 use crate::learner::Learner;
 use crate::light_task::LightTask;
@@ -34,7 +34,7 @@ impl<'a> SearchStep<'a> {
         let mut learner = SearchLearner::<T>::new(recipe, device)?;
         let (mut maker, _) = HalvesMaker::<T>::open(&recipe.training, device)?;
         let start = Instant::now();
-        let batches: Vec<Halves> = (0..maker.together())
+        let batches: Vec<SplitBatch> = (0..maker.together())
             .map(|step| maker.make(step))
             .collect::<Result<_, _>>()?;
         let data = start.elapsed() / batches.len() as u32;

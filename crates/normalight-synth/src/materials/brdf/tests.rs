@@ -211,7 +211,7 @@ fn lamp_and_camera_may_change_places() {
 fn rough_metal_returns_all_light() {
     for alpha in [0.2f32, 0.5, 0.9] {
         let whole = Surface {
-            albedo: crate::materials::paint::between_facets(Vec3::ONE, alpha),
+            albedo: crate::materials::material::between_facets(Vec3::ONE, alpha),
             ..mirror([alpha; 2])
         };
         // Over all directions of the camera, by their cosine.

@@ -21,7 +21,7 @@ pub struct Comparison {
     /// SHA-256 of `recipe.toml`, the common schedule.
     pub recipe_sha256: String,
     /// In the order they were given.
-    pub entries: Vec<Compared>,
+    pub entries: Vec<EntryResult>,
     /// Entries that are one thing together.
     pub groups: Vec<Group>,
 }
@@ -38,7 +38,7 @@ pub enum EntryKind {
 
 /// One that is compared.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Compared {
+pub struct EntryResult {
     /// Its name.
     pub name: String,
     /// What it is.
@@ -119,7 +119,7 @@ impl SeedResult {
     }
 }
 
-impl Compared {
+impl EntryResult {
     pub(super) fn new(entry: &Entry, recipe: &TrainRecipe) -> Self {
         let (kind, source) = match &entry.body {
             Body::Cells(genotypes) => (EntryKind::Cells, Some(genotypes.source.clone())),
@@ -180,9 +180,9 @@ impl Comparison {
 
     /// As a table, the best first, and a line for every group.
     pub fn to_text(&self) -> String {
-        let mut entries: Vec<&Compared> = self.entries.iter().collect();
+        let mut entries: Vec<&EntryResult> = self.entries.iter().collect();
         // What has no error comes last.
-        let key = |one: &Compared| one.mean.unwrap_or(f64::INFINITY);
+        let key = |one: &EntryResult| one.mean.unwrap_or(f64::INFINITY);
         entries.sort_by(|a, b| key(a).total_cmp(&key(b)));
         let names = self.entries.iter().map(|one| one.name.chars().count());
         let column = names.fold(5, usize::max);
@@ -245,7 +245,7 @@ fn spread(values: &[f64]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn compared(name: &str, degrees: &[Option<f32>]) -> Compared {
+    fn compared(name: &str, degrees: &[Option<f32>]) -> EntryResult {
         let text = "network = \"normal\"\nsteps = 60\nsize = 16\n";
         let entry = Entry {
             name: name.to_owned(),
@@ -253,7 +253,7 @@ mod tests {
             ..Entry::plain()
         };
         let recipe = TrainRecipe::parse("r.toml", text).unwrap();
-        let mut compared = Compared::new(&entry, &recipe);
+        let mut compared = EntryResult::new(&entry, &recipe);
         for (seed, &degrees) in degrees.iter().enumerate() {
             compared.add(SeedResult {
                 degrees,

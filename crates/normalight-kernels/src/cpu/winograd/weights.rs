@@ -5,12 +5,12 @@ use crate::cpu::winograd::TAPS;
 use pulp::{Simd, WithSimd};
 
 /// Nine planes of weights to 36.
-pub(super) struct Kernels<'a> {
+pub(super) struct WeightTransform<'a> {
     pub(super) weight: &'a [f32],
     pub(super) points: &'a mut [f32],
 }
 
-impl Kernels<'_> {
+impl WeightTransform<'_> {
     pub(super) fn run(self) {
         run(self);
     }
@@ -28,7 +28,7 @@ fn check_planes(weight: usize, points: usize) {
 }
 
 #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
-impl WithSimd for Kernels<'_> {
+impl WithSimd for WeightTransform<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -59,13 +59,13 @@ impl WithSimd for Kernels<'_> {
     }
 }
 
-/// The transpose of [`Kernels`].
-pub(super) struct KernelGradients<'a> {
+/// The transpose of [`WeightTransform`].
+pub(super) struct WeightGradientTransform<'a> {
     pub(super) points: &'a [f32],
     pub(super) weight: &'a mut [f32],
 }
 
-impl KernelGradients<'_> {
+impl WeightGradientTransform<'_> {
     pub(super) fn run(self) {
         run(self);
     }
@@ -76,7 +76,7 @@ impl KernelGradients<'_> {
 }
 
 #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
-impl WithSimd for KernelGradients<'_> {
+impl WithSimd for WeightGradientTransform<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -9,7 +9,7 @@ const BLOCK: usize = 1 << 10;
 /// first of equals). What is no number wins.
 pub(crate) fn forward(input: &[f32], images: usize, size: usize) -> (Buffer, Vec<u32>) {
     let samples = input.len() / (images * size).max(1);
-    let mut most = Buffer::stale(samples * size);
+    let mut most = Buffer::recycled(samples * size);
     let mut which = vec![0u32; samples * size];
     let block = size.clamp(1, BLOCK);
     most.par_chunks_mut(size.max(1))
@@ -39,20 +39,20 @@ pub(crate) fn forward(input: &[f32], images: usize, size: usize) -> (Buffer, Vec
 
 /// The gradient goes to the image that had the maximum.
 pub(crate) fn backward(gradient: &[f32], which: &[u32], images: usize, size: usize) -> Buffer {
-    let mut of_input = Buffer::stale(gradient.len() * images);
-    of_input
+    let mut grad_input = Buffer::recycled(gradient.len() * images);
+    grad_input
         .par_chunks_mut(size.max(1))
         .enumerate()
-        .for_each(|(row, of_image)| {
+        .for_each(|(row, grad_image)| {
             let (sample, image) = (row / images, (row % images) as u32);
             let from = sample * size;
             let gradient = &gradient[from..from + size];
             let which = &which[from..from + size];
             pulp::Arch::new().dispatch(|| {
-                for ((value, gradient), which) in of_image.iter_mut().zip(gradient).zip(which) {
+                for ((value, gradient), which) in grad_image.iter_mut().zip(gradient).zip(which) {
                     *value = if *which == image { *gradient } else { 0.0 };
                 }
             });
         });
-    of_input
+    grad_input
 }

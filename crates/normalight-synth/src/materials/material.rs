@@ -9,28 +9,28 @@ use glam::{Mat3, Vec3};
 /// Fit of the light that a lobe of rough facets loses, see [`between_facets`].
 const LOST: [f32; 3] = [0.2256, 1.1638, -0.8221];
 
-/// A paint: one substance, or several that meet along a noisy border.
+/// A material: one layer, or several side by side that meet along a noisy border.
 #[derive(Debug, Clone)]
-pub(crate) struct Paint {
-    first: Substance,
-    others: Vec<(Substance, Border)>,
-    /// The measured ones among the substances, as [`Surface::measured`] numbers them.
+pub(crate) struct Material {
+    first: MaterialLayer,
+    others: Vec<(MaterialLayer, Border)>,
+    /// The measured ones among the layers, as [`Surface::measured`] numbers them.
     measured: Vec<Measured>,
 }
 
-/// A substance with its patterns.
+/// A layer with its patterns.
 #[derive(Debug, Clone)]
-struct Substance {
+struct MaterialLayer {
     surface: Surface,
-    /// Number of the measured substance, if it is one.
+    /// Number of the measured layer, if it is one.
     measured: Option<usize>,
-    /// A pattern and the colour at its other end, relative to the first for measured substances.
+    /// A pattern and the colour at its other end, relative to the first for measured layers.
     coloured: Option<(Pattern, Vec3)>,
     /// A pattern and the factor of the highlight's width at its other end.
     roughened: Option<(Pattern, f32)>,
 }
 
-/// Where another substance lies over the first.
+/// Where another layer lies over the first.
 #[derive(Debug, Clone)]
 struct Border {
     to_noise: Mat3,
@@ -39,11 +39,11 @@ struct Border {
     softness: f32,
 }
 
-impl Paint {
-    /// Draws a paint; `library` holds the measured materials to choose from.
+impl Material {
+    /// Draws a material; `library` holds the measured materials to choose from.
     pub(crate) fn draw(recipe: &MaterialRecipe, library: &[Measured], random: &mut Random) -> Self {
         let mut measured = Vec::new();
-        let first = Substance::draw(recipe, library, &mut measured, random);
+        let first = MaterialLayer::draw(recipe, library, &mut measured, random);
         let mut others = Vec::new();
         if random.chance(recipe.mixed_share) {
             for _ in 0..random.count(1, MAX_SUBSTANCES - 1) {
@@ -53,7 +53,7 @@ impl Paint {
                     threshold: random.signed(0.35),
                     softness: random.log_range(0.01, 1.0),
                 };
-                let other = Substance::draw(recipe, library, &mut measured, random);
+                let other = MaterialLayer::draw(recipe, library, &mut measured, random);
                 others.push((other, border));
             }
         }
@@ -71,18 +71,18 @@ impl Paint {
     /// What the object is made of at a point of its surface.
     pub(crate) fn at(&self, lattice: &Lattice, point: Vec3) -> Surface {
         let mut surface = self.first.at(lattice, point);
-        for (substance, border) in &self.others {
+        for (layer, border) in &self.others {
             let noise = lattice.at(border.to_noise * point + border.offset);
             let share = smooth_step((noise - border.threshold) / border.softness + 0.5);
             if share > 0.0 {
-                surface = surface.mixed(&substance.at(lattice, point), share);
+                surface = surface.mixed(&layer.at(lattice, point), share);
             }
         }
         surface
     }
 }
 
-impl Substance {
+impl MaterialLayer {
     fn draw(
         recipe: &MaterialRecipe,
         library: &[Measured],
@@ -142,7 +142,7 @@ impl Substance {
     }
 }
 
-/// A substance of diffuse light and highlights by formula.
+/// A layer of diffuse light and highlights by formula.
 fn modelled(recipe: &MaterialRecipe, random: &mut Random) -> Surface {
     let metal = random.chance(recipe.metal_share);
     if metal && random.chance(recipe.broad_metal_share) {

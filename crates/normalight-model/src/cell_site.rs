@@ -3,7 +3,7 @@ use crate::{CellLight, CellNormal};
 
 /// One cell of a network: which of the genotype's cells, how wide, how large.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CellPlacement {
+pub struct CellSite {
     /// Which cell of the genotype, in the order of its `cells()`.
     pub cell: usize,
     /// Whether it halves the size: its edges from the cell inputs then have stride 2.
@@ -16,7 +16,7 @@ pub struct CellPlacement {
     pub per_image: bool,
 }
 
-impl CellPlacement {
+impl CellSite {
     /// Pixels of its inputs.
     pub fn input_area(&self) -> usize {
         self.area * if self.reduces { 4 } else { 1 }
@@ -28,7 +28,7 @@ struct Row {
     width: usize,
     area: usize,
     per_image: bool,
-    cells: Vec<CellPlacement>,
+    cells: Vec<CellSite>,
 }
 
 impl Row {
@@ -46,7 +46,7 @@ impl Row {
             self.width *= 2;
             self.area /= 4;
         }
-        self.cells.push(CellPlacement {
+        self.cells.push(CellSite {
             cell,
             reduces,
             width: self.width,
@@ -57,7 +57,7 @@ impl Row {
 }
 
 /// N, then R N for each reduction: cells 0 and 1 of the genotype.
-fn features(width: usize, area: usize, reductions: usize) -> Vec<CellPlacement> {
+fn features(width: usize, area: usize, reductions: usize) -> Vec<CellSite> {
     let mut row = Row::new(width, area, true);
     row.add(0, false);
     for _ in 0..reductions {
@@ -75,7 +75,7 @@ fn stem_area(area: usize, strides: [usize; 2]) -> usize {
 }
 
 /// Cells of the features and of the classifier of a light network for views of that many pixels.
-pub fn light_placements(cells: &CellLight, area: usize) -> [Vec<CellPlacement>; 2] {
+pub fn light_cell_sites(cells: &CellLight, area: usize) -> [Vec<CellSite>; 2] {
     let area = stem_area(area, cells.stem_strides);
     let mut classifier = Row::new(cells.width, area >> (2 * cells.reductions), true);
     classifier.add(2, false);
@@ -87,7 +87,7 @@ pub fn light_placements(cells: &CellLight, area: usize) -> [Vec<CellPlacement>; 
 }
 
 /// Cells of the features and of the regressor of a normal network for images of that many pixels.
-pub fn normal_placements(cells: &CellNormal, area: usize) -> [Vec<CellPlacement>; 2] {
+pub fn normal_cell_sites(cells: &CellNormal, area: usize) -> [Vec<CellSite>; 2] {
     let mut regressor = Row::new(cells.width, area / 4, false);
     for _ in 0..3 {
         regressor.add(2, false);

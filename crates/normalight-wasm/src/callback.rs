@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = "
 /** Follows a run. */
-export interface Watcher {
+export interface ProgressCallback {
   /** Hears of progress (a stage and the share of it that is done), lets the event loop run, and says whether to go on. */
   report(stage: string, fraction: number): Promise<boolean>;
 }
@@ -17,11 +17,15 @@ export interface Watcher {
 extern "C" {
     /// Follows a run: an object whose `report(stage, fraction)` lets the event loop run and then
     /// says whether to go on.
-    #[wasm_bindgen(typescript_type = "Watcher")]
-    pub type Watcher;
+    #[wasm_bindgen(typescript_type = "ProgressCallback")]
+    pub type ProgressCallback;
 
     #[wasm_bindgen(method, catch)]
-    async fn report(this: &Watcher, stage: &str, fraction: f32) -> Result<JsValue, JsValue>;
+    async fn report(
+        this: &ProgressCallback,
+        stage: &str,
+        fraction: f32,
+    ) -> Result<JsValue, JsValue>;
 
     #[wasm_bindgen(js_namespace = performance)]
     fn now() -> f64;
@@ -31,19 +35,19 @@ extern "C" {
 const READING: &str = "reading";
 
 /// Passes the pipeline's progress on and takes the time of its stages.
-pub(crate) struct Follower<'a> {
-    watcher: &'a Watcher,
+pub(crate) struct ProgressObserver<'a> {
+    callback: &'a ProgressCallback,
     started: f64,
     read: f64,
     stages: StageTimes,
 }
 
-impl<'a> Follower<'a> {
+impl<'a> ProgressObserver<'a> {
     /// Begins with the reading of the files; `None` when the run is cancelled already.
-    pub(crate) async fn start(watcher: &'a Watcher) -> Option<Self> {
-        let go_on = tell(watcher, READING, 0.0).await;
+    pub(crate) async fn start(callback: &'a ProgressCallback) -> Option<Self> {
+        let go_on = tell(callback, READING, 0.0).await;
         go_on.is_continue().then(|| Self {
-            watcher,
+            callback,
             started: seconds(),
             read: 0.0,
             stages: StageTimes::default(),
@@ -70,17 +74,17 @@ impl<'a> Follower<'a> {
     }
 }
 
-impl Observer for Follower<'_> {
+impl Observer for ProgressObserver<'_> {
     async fn report(&mut self, progress: Progress) -> ControlFlow<()> {
         self.stages.note(progress, seconds());
-        tell(self.watcher, progress.stage.name(), progress.fraction).await
+        tell(self.callback, progress.stage.name(), progress.fraction).await
     }
 }
 
-async fn tell(watcher: &Watcher, stage: &str, fraction: f32) -> ControlFlow<()> {
-    match watcher.report(stage, fraction).await {
+async fn tell(callback: &ProgressCallback, stage: &str, fraction: f32) -> ControlFlow<()> {
+    match callback.report(stage, fraction).await {
         Ok(answer) if answer.is_truthy() => ControlFlow::Continue(()),
-        // A watcher that fails cannot be asked to cancel any more.
+        // A callback that fails cannot be asked to cancel any more.
         _ => ControlFlow::Break(()),
     }
 }
