@@ -5,6 +5,7 @@
 
 mod fresh;
 mod node;
+mod packages;
 mod run;
 mod serve;
 mod setup;
@@ -17,6 +18,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
+use packages::Installing;
 use steps::Step;
 use workspace::Workspace;
 
@@ -26,6 +28,9 @@ use workspace::Workspace;
 struct Arguments {
     #[command(subcommand)]
     task: Task,
+    /// Install nothing: name the exact command for what is missing, and stop.
+    #[arg(long, global = true)]
+    no_install: bool,
 }
 
 #[derive(Subcommand)]
@@ -53,7 +58,7 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    match perform(Arguments::parse().task) {
+    match perform(Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             run::note(&format!("error: {error:#}"));
@@ -62,17 +67,24 @@ fn main() -> ExitCode {
     }
 }
 
-fn perform(task: Task) -> Result<()> {
+fn perform(arguments: Arguments) -> Result<()> {
+    let installing = if arguments.no_install {
+        Installing::Forbidden
+    } else {
+        Installing::Announced
+    };
     let workspace = Workspace::find()?;
-    match task {
+    match arguments.task {
         Task::Demo { port, no_serve } => {
-            steps::run(&workspace, &steps::DEMO)?;
+            steps::run(&workspace, &steps::DEMO, installing)?;
             if no_serve {
                 return Ok(());
             }
             serve::serve(&workspace.root.join("www/dist"), port)
         }
-        Task::Test { only, skip } => steps::run(&workspace, &steps::chosen(&only, &skip)),
-        Task::Wasm => steps::run(&workspace, &steps::WASM),
+        Task::Test { only, skip } => {
+            steps::run(&workspace, &steps::chosen(&only, &skip), installing)
+        }
+        Task::Wasm => steps::run(&workspace, &steps::WASM, installing),
     }
 }

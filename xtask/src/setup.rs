@@ -1,12 +1,13 @@
 //! What the steps need from the system, and installing what is missing.
 
-use std::cell::{Cell, OnceCell};
+use std::cell::OnceCell;
 use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
 use crate::node::Node;
+use crate::packages::{Installing, Packages};
 use crate::run;
 use crate::wasm::Toolchain;
 use crate::workspace::Workspace;
@@ -24,13 +25,10 @@ pub struct Tools<'a> {
 
 impl<'a> Tools<'a> {
     /// Nothing looked for yet.
-    pub fn new(workspace: &'a Workspace) -> Self {
+    pub fn new(workspace: &'a Workspace, installing: Installing) -> Self {
         Self {
             workspace,
-            packages: Packages {
-                workspace,
-                updated: Cell::new(false),
-            },
+            packages: Packages::new(workspace, installing),
             components: OnceCell::new(),
             toolchain: OnceCell::new(),
             node: OnceCell::new(),
@@ -41,7 +39,10 @@ impl<'a> Tools<'a> {
 
     /// rustfmt and clippy, which a minimal Rust lacks.
     pub fn components(&self) -> Result<()> {
-        once(&self.components, || components(self.workspace)).map(|_| ())
+        once(&self.components, || {
+            components(self.workspace, &self.packages)
+        })
+        .map(|_| ())
     }
 
     /// The Rust toolchain that builds WebAssembly.
@@ -82,7 +83,7 @@ pub fn rustup_may_not_install() -> bool {
     std::env::var("RUSTUP_AUTO_INSTALL").is_ok_and(|value| value == "0")
 }
 
-fn components(workspace: &Workspace) -> Result<()> {
+fn components(workspace: &Workspace, packages: &Packages) -> Result<()> {
     for (subcommand, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if run::read(&mut workspace.cargo(&[subcommand, "--version"])).is_ok() {
             continue;
@@ -91,7 +92,7 @@ fn components(workspace: &Workspace) -> Result<()> {
         if rustup_may_not_install() {
             bail!("{component} is missing; {by_hand}");
         }
-        workspace.say(&format!("setup: rustup component add {component}"));
+        packages.announce(&format!("rustup component add {component}"))?;
         run::read(Command::new("rustup").args(["component", "add", component])).context(by_hand)?;
     }
     Ok(())
@@ -137,66 +138,4 @@ fn software_gpu(workspace: &Workspace, packages: &Packages) -> Result<bool> {
             .context("training is tested on a software GPU")?;
     }
     Ok(true)
-}
-
-/// Debian's packages.
-pub struct Packages<'a> {
-    workspace: &'a Workspace,
-    updated: Cell<bool>,
-}
-
-impl Packages<'_> {
-    /// Whether all of these are installed.
-    pub fn installed(&self, names: &[&str]) -> bool {
-        let mut command = Command::new("dpkg-query");
-        command
-            .args(["--show", "--showformat", "${db:Status-Status}\n"])
-            .args(names);
-        run::read(&mut command).is_ok_and(|text| {
-            text.lines().filter(|line| *line == "installed").count() == names.len()
-        })
-    }
-
-    /// Installs packages, or fails with the command to type.
-    pub fn install(&self, names: &[&str]) -> Result<()> {
-        let install = format!(
-            "apt-get install --yes --no-install-recommends {}",
-            names.join(" ")
-        );
-        let by_hand = format!("install by hand: sudo apt-get update && sudo {install}");
-        if which::which("apt-get").is_err() {
-            bail!("there is no apt-get here to install {}", names.join(" "));
-        }
-        let root = run::read(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
-        if !root && !run::works("sudo", &["-n", "true"]) {
-            bail!("no right to install packages; {by_hand}");
-        }
-        if !self.updated.replace(true) {
-            self.workspace.say("setup: apt-get update");
-            // One source out of reach is no reason to stop: the install says what it misses.
-            if let Err(error) = run::read(&mut apt(root, &["update"])) {
-                self.workspace.say(&format!("setup: {error:#}"));
-            }
-        }
-        self.workspace.say(&format!("setup: {install}"));
-        let words: Vec<&str> = install.split(' ').skip(1).collect();
-        run::read(&mut apt(root, &words))
-            .map(|_| ())
-            .context(by_hand)
-    }
-}
-
-fn apt(root: bool, arguments: &[&str]) -> Command {
-    let mut command = Command::new(if root { "env" } else { "sudo" });
-    if !root {
-        command.args(["-n", "env"]);
-    }
-    command.args([
-        "DEBIAN_FRONTEND=noninteractive",
-        "apt-get",
-        "-o",
-        "DPkg::Lock::Timeout=300",
-    ]);
-    command.args(arguments);
-    command
 }

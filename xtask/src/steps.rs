@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 
+use crate::packages::Installing;
 use crate::run;
 use crate::setup::Tools;
 use crate::wasm;
@@ -71,12 +72,12 @@ pub fn chosen(only: &[Step], skip: &[Step]) -> Vec<Step> {
         .collect()
 }
 
-/// Prepares the tools, runs the steps and sums up their times.
-pub fn run(workspace: &Workspace, steps: &[Step]) -> Result<()> {
+/// Prepares the tools, installing what is missing unless that is forbidden, runs the steps and sums up their times.
+pub fn run(workspace: &Workspace, steps: &[Step], installing: Installing) -> Result<()> {
     if steps.is_empty() {
         bail!("no step is left to run");
     }
-    let tools = Tools::new(workspace);
+    let tools = Tools::new(workspace, installing);
     let mut times: Vec<(String, Duration)> = Vec::new();
     let started = Instant::now();
     // Before anything is compiled: what cannot be installed should not come to light at the end.

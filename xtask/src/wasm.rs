@@ -9,8 +9,9 @@ use anyhow::{Context, Result, anyhow, bail};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::fresh::stale;
+use crate::packages::Packages;
 use crate::run;
-use crate::setup::{Packages, rustup_may_not_install};
+use crate::setup::rustup_may_not_install;
 use crate::workspace::{Workspace, forget_this_package};
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -46,7 +47,7 @@ impl Toolchain {
         }
         if rustup_may_not_install() {
             workspace.say("setup: RUSTUP_AUTO_INSTALL=0, so rustup is not asked for the target");
-        } else if rustup_adds_target(workspace) {
+        } else if rustup_adds_target(packages)? {
             return Ok(Self::Own);
         } else {
             workspace.say("setup: rustup cannot fetch the target; using Debian's packages");
@@ -104,11 +105,11 @@ fn own_has_target() -> bool {
     })
 }
 
-fn rustup_adds_target(workspace: &Workspace) -> bool {
+fn rustup_adds_target(packages: &Packages) -> Result<bool> {
     if which::which("rustup").is_err() {
-        return false;
+        return Ok(false);
     }
-    workspace.say(&format!("setup: rustup target add {TARGET}"));
+    packages.announce(&format!("rustup target add {TARGET}"))?;
     let mut command = Command::new("rustup");
     command.args(["target", "add", TARGET]);
     // Debian's packages are the second try: no need to wait long for the first.
@@ -120,7 +121,7 @@ fn rustup_adds_target(workspace: &Workspace) -> bool {
             command.env(name, value);
         }
     }
-    run::read(&mut command).is_ok() && own_has_target()
+    Ok(run::read(&mut command).is_ok() && own_has_target())
 }
 
 /// Debian's cargo with nothing of the toolchain that runs this program: rustup's variables would
