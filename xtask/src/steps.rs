@@ -51,7 +51,7 @@ pub const DEMO: [Step; 4] = [Step::Wasm, Step::Bindgen, Step::NpmCi, Step::Page]
 pub const WASM: [Step; 2] = [Step::Wasm, Step::Bindgen];
 
 /// The native crates. All native commands name this one set: Cargo unifies features over the
-/// set, and another would compile Burn again. The browser's door builds for WebAssembly only;
+/// set, and another would compile Burn again. The bindings for the browser build for WebAssembly only;
 /// these tasks have their own, cheap profile.
 const NATIVE: [&str; 6] = [
     "--release",

@@ -80,7 +80,7 @@ impl Toolchain {
         command
     }
 
-    /// Lints the browser's door and every crate of ours below it, with the calls banned that the
+    /// Lints the bindings for the browser and every crate of ours below it, with the calls banned that the
     /// browser does not have.
     pub fn clippy(&self, workspace: &Workspace) -> Result<()> {
         let mut command = self.cargo(workspace, "clippy");

@@ -3,14 +3,14 @@ use crate::Outcome;
 use crate::args::EstimateArgs;
 use crate::choices::word;
 use crate::progress::{ProgressObserver, Spinner};
-use crate::settings::{Estimation, describe};
+use crate::settings::Estimation;
 use crate::terminal::print;
 use crate::{interrupt, outputs};
 use anyhow::{Context, Result, bail};
 use normalight_core::{CoreError, Light};
 use normalight_io::{
-    ColorMode, IoError, MaskChoice, OutputFolder, ReadOptions, Report, StackInput, StageSeconds,
-    read_named, read_paths,
+    IoError, MaskChoice, OutputFolder, ReadOptions, RunDescription, StackInput, StageSeconds,
+    read_named, read_paths, result_files,
 };
 use normalight_model::ModelError;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,8 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
     let start = Instant::now();
     let estimation = Estimation::open(&args.estimation)?;
     let opened = start.elapsed();
-    let input = read(args)?;
+    let reading = reading(args)?;
+    let input = read(args, &reading)?;
     let lights = read_lights(args, &input)?;
     let read = start.elapsed() - opened;
 
@@ -47,20 +48,18 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         stage: stage.to_owned(),
         seconds: time.as_secs_f64(),
     });
-    let report = Report {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        inputs: input.picked_names(),
-        width: input.stack.width(),
-        height: input.stack.height(),
-        mask: input.mask_label().to_owned(),
-        color: ColorMode::from(args.color).to_string(),
-        lights_from: lights_in_words(args),
-        device: estimation.device.clone(),
-        weights: estimation.hashes(lights.is_some()),
-        settings: settings(args),
+    let lights_file = args.lights.as_ref().map(|path| path.display().to_string());
+    let report = RunDescription {
+        reading: &reading,
+        settings: estimation.settings,
+        lights_file: lights_file.as_deref(),
+        device: [&word(args.estimation.device), &estimation.device],
+        weights: estimation.estimator.weight_hashes(),
+        normal_format: args.normal_format.into(),
         seconds: before.into_iter().chain(stages).collect(),
-    };
-    let files = outputs::encode(&input, &estimate, args.normal_format.into(), &report)?;
+    }
+    .report(&input);
+    let files = result_files(&input, &estimate, &report)?;
     if interrupt::asked() {
         return Ok(Outcome::Interrupted);
     }
@@ -102,19 +101,22 @@ fn check_apart(inputs: &[PathBuf], out: &Path) -> Result<()> {
     Ok(())
 }
 
-fn read(args: &EstimateArgs) -> Result<StackInput> {
+fn reading(args: &EstimateArgs) -> Result<ReadOptions> {
     let mask = match &args.mask {
         None => MaskChoice::Auto,
         Some(path) if path == Path::new("none") => MaskChoice::WholeFrame,
         Some(path) => MaskChoice::File(read_named(path)?),
     };
-    let options = ReadOptions {
+    Ok(ReadOptions {
         color: args.color.into(),
         mask,
         images: args.images,
-    };
+    })
+}
+
+fn read(args: &EstimateArgs, reading: &ReadOptions) -> Result<StackInput> {
     let _spinner = Spinner::new("reading photographs", args.quiet);
-    match read_paths(&args.inputs, &options) {
+    match read_paths(&args.inputs, reading) {
         // The one error about all images at once: it can name none of them.
         Err(error @ IoError::Core(CoreError::AllBlack { .. })) => {
             Err(error).with_context(|| args.inputs[0].display().to_string())
@@ -128,25 +130,4 @@ fn read_lights(args: &EstimateArgs, input: &StackInput) -> Result<Option<Vec<Lig
     Ok(lights
         .map(|path| input.read_lights_path(path))
         .transpose()?)
-}
-
-fn lights_in_words(args: &EstimateArgs) -> String {
-    match &args.lights {
-        Some(path) => path.display().to_string(),
-        None if args.estimation.no_refit => "estimated by the light network".to_owned(),
-        None => "estimated by the light network, refitted to the normals".to_owned(),
-    }
-}
-
-fn settings(args: &EstimateArgs) -> serde_json::Value {
-    let path = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
-    let mut settings = describe(&args.estimation, args.lights.is_some());
-    settings.extend([
-        ("mask".to_owned(), path(&args.mask).into()),
-        ("lights".to_owned(), path(&args.lights).into()),
-        ("images".to_owned(), args.images.into()),
-        ("normal_format".to_owned(), word(args.normal_format).into()),
-        ("color".to_owned(), word(args.color).into()),
-    ]);
-    settings.into()
 }

@@ -40,7 +40,8 @@ pub struct LightBins {
 }
 
 /// How class probabilities become numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Decoding {
     /// Centre of the most probable class: the published way, with an error floor of half a class.
     Argmax,

@@ -3,11 +3,13 @@ use crate::limits::{MAX_DECODE_BYTES, MAX_PIXELS};
 use crate::{IoError, jpeg};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use normalight_core::{Mask, Samples, StackImage, Transfer, luminance};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::io::Cursor;
 
 /// How the samples of photographs are taken to relate to light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ColorMode {
     /// 8-bit JPEG and WebP are sRGB, everything else is linear.
     #[default]

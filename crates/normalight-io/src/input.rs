@@ -23,6 +23,17 @@ pub enum MaskChoice {
     File(NamedBytes),
 }
 
+impl MaskChoice {
+    /// The word of the command line, or the file's name.
+    pub fn label(&self) -> &str {
+        match self {
+            Self::Auto => "auto",
+            Self::WholeFrame => "none",
+            Self::File(file) => &file.name,
+        }
+    }
+}
+
 /// How a stack is read.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReadOptions {

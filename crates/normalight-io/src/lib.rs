@@ -22,6 +22,7 @@ mod photographs;
 mod plan;
 mod previews;
 mod report;
+mod result_files;
 mod stack;
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -45,5 +46,6 @@ pub use native::{
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
-pub use report::{Report, StageSeconds, WeightHashes, report_json};
+pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json};
+pub use result_files::{RunDescription, result_files};
 pub use stack::{read_stack, read_text};

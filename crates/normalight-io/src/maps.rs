@@ -4,10 +4,12 @@ use crate::previews::displayed_albedo;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
 use normalight_core::{Mask, NormalMap, Vec3};
 use npyz::WriterBuilder;
+use serde::{Deserialize, Serialize};
 use std::io::Cursor;
 
 /// Which way green points in an exported normal map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum NormalFormat {
     /// Green is up, as everywhere in this program.
     #[default]

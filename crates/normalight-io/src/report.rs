@@ -1,4 +1,5 @@
-use crate::IoError;
+use crate::{ColorMode, IoError, NormalFormat};
+use normalight_core::{Decoding, Quality};
 use serde::{Deserialize, Serialize};
 
 /// Everything that is needed to tell later how a result came to be: `report.json`.
@@ -14,18 +15,50 @@ pub struct Report {
     pub height: usize,
     /// Where the mask came from, in words.
     pub mask: String,
-    /// How samples were taken: auto, linear or srgb.
-    pub color: String,
+    /// How samples were taken.
+    pub color: ColorMode,
     /// Where the lights came from, in words.
     pub lights_from: String,
     /// What computed the result.
     pub device: String,
     /// Which weights were used.
     pub weights: WeightHashes,
-    /// All settings, as the program names them.
-    pub settings: serde_json::Value,
+    /// What was asked for.
+    pub settings: ReportSettings,
     /// Time of each stage, in the order they ran.
     pub seconds: Vec<StageSeconds>,
+}
+
+/// What was asked for, in the words of the command line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReportSettings {
+    /// The device: `auto`, `cpu`, ...
+    pub device: String,
+    /// Over how many views to average.
+    pub quality: Quality,
+    /// How light classes become numbers.
+    pub decoding: Decoding,
+    /// Whether lights are refitted to the normals: never those that were given.
+    pub refit: bool,
+    /// `auto`, `none` (the whole frame) or the mask's file.
+    pub mask: String,
+    /// The file of lights that were given.
+    pub lights: Option<String>,
+    /// Most photographs to use.
+    pub images: Option<usize>,
+    /// Which way green points in `normals.png`.
+    pub normal_format: NormalFormat,
+    /// How samples relate to light.
+    pub color: ColorMode,
+}
+
+/// Where the lights came from, in words: the file that they were `given` in, or an estimation.
+pub(crate) fn lights_label(given: Option<&str>, refit: bool) -> String {
+    match given {
+        Some(file) => file.to_owned(),
+        None if refit => "estimated by the light network, refitted to the normals".to_owned(),
+        None => "estimated by the light network".to_owned(),
+    }
 }
 
 /// Hashes of the weights files, `None` for a network that was not used.

@@ -1,8 +1,12 @@
 //! Maps and the report as files.
-use normalight_core::{CoreError, Mask, NormalMap, Vec3};
+use normalight_core::{
+    CoreError, Decoding, EstimateSettings, ImageStack, Mask, MaskSource, NormalMap, Quality,
+    Samples, StackImage, Transfer, Vec3,
+};
 use normalight_io::{
-    ColorMode, IoError, NormalFormat, Report, StageSeconds, WeightHashes, albedo_png, albedo_rgba,
-    decode_mask, mask_png, normals_npy, normals_png, normals_rgba, report_json,
+    ColorMode, IoError, NormalFormat, ReadOptions, Report, ReportSettings, RunDescription,
+    StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, decode_mask, mask_png,
+    normals_npy, normals_png, normals_rgba, report_json,
 };
 
 fn map() -> NormalMap {
@@ -100,14 +104,24 @@ fn reports_are_json() {
         width: 3,
         height: 2,
         mask: "mask.png".into(),
-        color: "linear".into(),
+        color: ColorMode::Linear,
         device: "cpu".into(),
         lights_from: "network".into(),
         weights: WeightHashes {
             light: Some("ab".into()),
             normal: None,
         },
-        settings: serde_json::json!({"tile": 512}),
+        settings: ReportSettings {
+            device: "auto".into(),
+            quality: Quality::Fast,
+            decoding: Decoding::SoftArgmax,
+            refit: true,
+            mask: "none".into(),
+            lights: None,
+            images: Some(4),
+            normal_format: NormalFormat::OpenGl,
+            color: ColorMode::Linear,
+        },
         seconds: ["read", "lights"]
             .map(|stage| StageSeconds {
                 stage: stage.into(),
@@ -118,4 +132,52 @@ fn reports_are_json() {
     let bytes = report_json(&report).unwrap();
     assert!(bytes.ends_with(b"}\n"));
     assert_eq!(serde_json::from_slice::<Report>(&bytes).unwrap(), report);
+    // The words of the command line.
+    let json: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+    let settings = &json["settings"];
+    assert_eq!(json["color"], "linear");
+    assert_eq!(settings["quality"], "fast");
+    assert_eq!(settings["decoding"], "soft-argmax");
+    assert_eq!(settings["normal_format"], "opengl");
+    assert!(settings["lights"].is_null());
+}
+
+/// Given lights are used as they are: no refit, no light network.
+#[test]
+fn reports_say_what_was_done_with_given_lights() {
+    let image = |name: &str| StackImage {
+        name: name.into(),
+        width: 16,
+        height: 16,
+        channels: 1,
+        samples: Samples::F32(vec![0.5; 256]),
+        transfer: Transfer::Linear,
+    };
+    let input = StackInput {
+        stack: ImageStack::new(["a.png", "b.png", "c.png"].map(image).into()).unwrap(),
+        mask: Mask::whole(16, 16),
+        mask_source: MaskSource::WholeFrame,
+        file_names: Vec::new(),
+        picked: Vec::new(),
+    };
+    let reading = ReadOptions::default();
+    let mut run = RunDescription {
+        reading: &reading,
+        settings: EstimateSettings::default(),
+        lights_file: None,
+        device: ["auto", "CPU"],
+        weights: ["ab", "cd"],
+        normal_format: NormalFormat::OpenGl,
+        seconds: Vec::new(),
+    };
+    let estimated = run.report(&input);
+    assert!(estimated.settings.refit && estimated.lights_from.contains("refitted"));
+    assert_eq!(estimated.weights.light.as_deref(), Some("ab"));
+    assert_eq!(estimated.inputs, ["a.png", "b.png", "c.png"]);
+    run.lights_file = Some("lights.lp");
+    let given = run.report(&input);
+    assert!(!given.settings.refit);
+    assert_eq!(given.lights_from, "lights.lp");
+    assert_eq!(given.weights.light, None);
+    assert_eq!(given.settings.mask, "auto");
 }

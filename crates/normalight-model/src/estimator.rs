@@ -1,12 +1,11 @@
 use crate::observer::{Observer, PipelineStage, report};
 use crate::{
-    LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Quality, Weights,
-    light_cost, normal_cost,
+    LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Weights, light_cost,
+    normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
-    CalibratedStack, Decoding, ImageStack, Light, Mask, NormalMap, RefitSettings, albedo_map,
-    refit_lights,
+    CalibratedStack, Estimate, EstimateSettings, ImageStack, Light, Mask, albedo_map, refit_lights,
 };
 
 /// Both networks on a device, ready to go from photographs to lights and normals.
@@ -15,39 +14,6 @@ pub struct Estimator {
     light: LoadedLightNetwork,
     normal: LoadedNormalNetwork,
     hashes: [String; 2],
-}
-
-/// How to estimate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EstimateSettings {
-    /// How light classes become numbers.
-    pub decoding: Decoding,
-    /// Refit the lights to the first normals and estimate the normals again; lights that were
-    /// given are never touched.
-    pub refit: Option<RefitSettings>,
-    /// Over how many views of the photographs lights and normals are averaged.
-    pub quality: Quality,
-}
-
-impl Default for EstimateSettings {
-    fn default() -> Self {
-        Self {
-            decoding: Decoding::SoftArgmax,
-            refit: Some(RefitSettings::default()),
-            quality: Quality::default(),
-        }
-    }
-}
-
-/// What an estimation gives.
-#[derive(Debug, Clone)]
-pub struct Estimate {
-    /// One light per image; intensities relative to their mean unless they were given.
-    pub lights: Vec<Light>,
-    /// Unit normals, zero outside the mask.
-    pub normals: NormalMap,
-    /// Linear RGB planes `[3, height, width]`, up to one scale; zero outside the mask.
-    pub albedo: Vec<f32>,
 }
 
 impl Estimator {

@@ -5,7 +5,7 @@ use crate::file::{InputFile, named_bytes};
 use crate::result::{Run, result};
 use crate::settings::Settings;
 use burn::tensor::Device;
-use normalight_io::{NamedBytes, read_stack};
+use normalight_io::{NamedBytes, RunDescription, read_stack};
 use normalight_model::{Estimator, default_weights};
 use wasm_bindgen::prelude::*;
 
@@ -14,7 +14,8 @@ use wasm_bindgen::prelude::*;
 #[derive(Debug)]
 pub struct Engine {
     estimator: Estimator,
-    device: String,
+    /// The device that was asked for, in the package's word, and a name for people.
+    device: [String; 2],
 }
 
 #[wasm_bindgen]
@@ -24,7 +25,7 @@ impl Engine {
     /// # Errors
     /// Weights that do not fit: a broken build.
     pub fn on_cpu(device: String) -> Result<Engine, Failure> {
-        Self::on(Device::flex(), device)
+        Self::on(Device::flex(), ["cpu".to_owned(), device])
     }
 
     /// On the browser's GPU, which can be started once; `device` is its name in reports.
@@ -36,14 +37,14 @@ impl Engine {
             .init_async()
             .await
             .map_err(|error| Failure::Device(error.to_string()))?;
-        Self::on(gpu, device)
+        Self::on(gpu, ["gpu".to_owned(), device])
     }
 
-    fn on(device: Device, name: String) -> Result<Engine, Failure> {
+    fn on(device: Device, names: [String; 2]) -> Result<Engine, Failure> {
         let [light, normal] = default_weights()?;
         Ok(Self {
             estimator: Estimator::new(&light, &normal, device)?,
-            device: name,
+            device: names,
         })
     }
 
@@ -81,14 +82,20 @@ impl Engine {
                 &mut observer,
             )
             .await?;
+        let [asked, used] = &self.device;
+        let description = RunDescription {
+            reading: &reading,
+            settings: settings.estimating(),
+            lights_file: lights.as_ref().map(|file| file.name.as_str()),
+            device: [asked, used],
+            weights: self.estimator.weight_hashes(),
+            normal_format: settings.normal_format,
+            seconds: observer.finish(),
+        };
         result(&Run {
             input: &input,
             estimate: &estimate,
-            settings: &settings,
-            lights_file: lights.as_ref().map(|file| file.name.as_str()),
-            weights: self.estimator.weight_hashes(),
-            device: &self.device,
-            seconds: observer.finish(),
+            report: description.report(&input),
         })
     }
 }

@@ -1,9 +1,8 @@
 //! A look at files before anything is estimated.
 use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
-use crate::settings::Color;
 use js_sys::Uint8Array;
-use normalight_io::{NamedBytes, decode_image, find_list, plan_stack, read_text};
+use normalight_io::{ColorMode, NamedBytes, decode_image, find_list, plan_stack, read_text};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
@@ -52,9 +51,9 @@ pub fn plan(files: Vec<InputFile>) -> Result<JsValue, Failure> {
 /// A file that is no complete image of a known format.
 #[wasm_bindgen]
 pub fn thumbnail(file: InputFile, color: JsValue, side: usize) -> Result<JsValue, Failure> {
-    let color: Color = serde_wasm_bindgen::from_value(color)?;
+    let color: ColorMode = serde_wasm_bindgen::from_value(color)?;
     let NamedBytes { name, bytes } = file.into();
-    let image = decode_image(&name, &bytes, color.into())?.image;
+    let image = decode_image(&name, &bytes, color)?.image;
     let small = normalight_io::thumbnail(&image, side);
     Ok(serde_wasm_bindgen::to_value(&Thumbnail {
         width: small.width,

@@ -1,4 +1,4 @@
-//! The browser's door: types in, types out, no arithmetic.
+//! Bindings for the browser: types in, types out, no arithmetic.
 //!
 //! The TypeScript package around this module (`web/`) runs it in a worker and gives its objects
 //! their types; nothing else should call it.

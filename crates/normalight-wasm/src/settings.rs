@@ -10,21 +10,12 @@ use wasm_bindgen::JsValue;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub(crate) struct Settings {
-    pub(crate) color: Color,
+    pub(crate) color: ColorMode,
     pub(crate) mask: Mask,
     pub(crate) images: Option<usize>,
-    pub(crate) normal_format: Format,
+    pub(crate) normal_format: NormalFormat,
     pub(crate) refit: bool,
     pub(crate) quality: Quality,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Color {
-    #[default]
-    Auto,
-    Linear,
-    Srgb,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,21 +28,13 @@ pub(crate) enum Mask {
     None,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Format {
-    #[default]
-    OpenGl,
-    DirectX,
-}
-
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            color: Color::default(),
+            color: ColorMode::default(),
             mask: Mask::default(),
             images: None,
-            normal_format: Format::default(),
+            normal_format: NormalFormat::default(),
             refit: true,
             quality: Quality::default(),
         }
@@ -65,7 +48,7 @@ impl Settings {
 
     pub(crate) fn reading(&self, mask: Option<NamedBytes>) -> ReadOptions {
         ReadOptions {
-            color: self.color.into(),
+            color: self.color,
             mask: match (mask, self.mask) {
                 (Some(file), _) => MaskChoice::File(file),
                 (None, Mask::Auto) => MaskChoice::Auto,
@@ -80,25 +63,6 @@ impl Settings {
             refit: self.refit.then(RefitSettings::default),
             quality: self.quality,
             ..EstimateSettings::default()
-        }
-    }
-}
-
-impl From<Color> for ColorMode {
-    fn from(color: Color) -> Self {
-        match color {
-            Color::Auto => Self::Auto,
-            Color::Linear => Self::Linear,
-            Color::Srgb => Self::Srgb,
-        }
-    }
-}
-
-impl From<Format> for NormalFormat {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::OpenGl => Self::OpenGl,
-            Format::DirectX => Self::DirectX,
         }
     }
 }

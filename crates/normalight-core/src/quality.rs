@@ -1,4 +1,4 @@
-use normalight_core::Symmetry;
+use crate::Symmetry;
 use serde::{Deserialize, Serialize};
 
 /// Over how many views of the photographs an estimate is averaged.
