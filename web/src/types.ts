@@ -107,6 +107,13 @@ export type OutputName =
   | "mask.png"
   | "report.json";
 
+/** Numbers with their shape, rows from the top. */
+export interface FloatMap {
+  readonly data: Float32Array<ArrayBuffer>;
+  /** `[height, width, 3]`. */
+  readonly shape: readonly [number, number, number];
+}
+
 /** What an estimation gives. */
 export interface Estimate {
   readonly width: number;
@@ -126,6 +133,10 @@ export interface Estimate {
   readonly quality: Quality;
   /** Time of each stage, in the order they ran. */
   readonly seconds: readonly { readonly stage: Stage; readonly seconds: number }[];
+  /** Unit normals: x right, y up, z to the camera; zero outside the object. */
+  readonly normalMap: FloatMap;
+  /** Linear RGB up to one scale; zero outside the object. */
+  readonly albedoMap: FloatMap;
   /** The normals as 8-bit RGBA, transparent outside the object; rows from the top. */
   readonly normals: Uint8Array<ArrayBuffer>;
   /** The albedo as 8-bit sRGB with alpha; rows from the top. */

@@ -119,6 +119,6 @@ function tell(message: FromWorker): void {
 
 /** The buffers in a response: they are handed over instead of copied. */
 function buffers(value: unknown): ArrayBuffer[] {
-  if (value instanceof Uint8Array) return [value.buffer as ArrayBuffer];
+  if (ArrayBuffer.isView(value)) return [value.buffer as ArrayBuffer];
   return typeof value === "object" && value !== null ? Object.values(value).flatMap(buffers) : [];
 }

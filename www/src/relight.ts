@@ -1,6 +1,5 @@
 import type { Estimate } from "normalight";
 import { byId } from "./dom.js";
-import { numbersOfNpy } from "./npy.js";
 import { Surface } from "./surface.js";
 import { towards } from "./vector.js";
 
@@ -69,9 +68,8 @@ export class Relight {
 }
 
 /** The result's surface, in fewer pixels where it is large. */
-function surfaceOf({ width, height, albedo, files }: Estimate): Surface {
-  const file = files.find(({ name }) => name === "normals.npy");
-  const normals = file ? numbersOfNpy(file.bytes) : new Float32Array(3 * width * height);
+function surfaceOf({ width, height, albedo, normalMap }: Estimate): Surface {
+  const normals = normalMap.data;
   const step = Math.ceil(Math.max(width, height) / SIDE);
   if (step <= 1) return new Surface(width, height, normals, albedo);
   const [columns, rows] = [Math.floor(width / step), Math.floor(height / step)];

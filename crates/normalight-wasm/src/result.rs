@@ -1,7 +1,7 @@
 //! What an estimation hands to JavaScript: numbers to show, and the files of the command line.
 use crate::error::Failure;
 use crate::file::OutputFile;
-use js_sys::Uint8Array;
+use js_sys::{Float32Array, Uint8Array};
 use normalight_core::MaskSource;
 use normalight_io::{Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files};
 use normalight_model::{Estimate, Quality};
@@ -25,11 +25,32 @@ struct Estimated<'a> {
     device: &'a str,
     quality: Quality,
     seconds: &'a [StageSeconds],
+    normal_map: FloatMap,
+    albedo_map: FloatMap,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     normals: Uint8Array,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     albedo: Uint8Array,
     files: Vec<OutputFile>,
+}
+
+/// Numbers with their shape.
+#[derive(Serialize)]
+struct FloatMap {
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    data: Float32Array,
+    shape: [usize; 3],
+}
+
+impl FloatMap {
+    /// Three numbers a pixel, from the pixel's place.
+    fn new(width: usize, height: usize, pixel: impl Fn(usize) -> [f32; 3]) -> Self {
+        let values: Vec<[f32; 3]> = (0..width * height).map(pixel).collect();
+        Self {
+            data: Float32Array::from(values.as_flattened()),
+            shape: [height, width, 3],
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -80,6 +101,12 @@ pub(crate) fn result(run: &Run<'_>) -> Result<JsValue, Failure> {
         device: &report.device,
         quality: report.settings.quality,
         seconds: &report.seconds,
+        normal_map: FloatMap::new(width, height, |pixel| {
+            estimate.normals.normals()[pixel].to_array()
+        }),
+        albedo_map: FloatMap::new(width, height, |pixel| {
+            [0, 1, 2].map(|channel| estimate.albedo[channel * width * height + pixel])
+        }),
         normals: Uint8Array::from(normals.as_slice()),
         albedo: Uint8Array::from(albedo.as_slice()),
         files: result_files(input, estimate, report)?
