@@ -2,6 +2,7 @@
 mod common;
 
 use common::*;
+use normalight_model::{Architecture, Weights};
 use normalight_train::TrainRecipe;
 use std::path::Path;
 
@@ -105,8 +106,20 @@ fn a_run_starts_from_weights() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/default");
     for (network, file) in [(NORMAL, "normal"), (LIGHT, "light")] {
         let mut recipe = recipe(&format!("{network}steps = 1\n"));
+        // Crops, images and a batch as in training: two small crops of three images say little.
+        recipe.images = [8, 8];
+        recipe.size = recipe.size.max(32);
+        recipe.batch = 8;
+        // The tower has no weights to start from.
+        recipe.normal.auxiliary_weight = 0.0;
+        let path = models.join(format!("{file}.safetensors"));
+        let shipped = Weights::from_bytes(file, &std::fs::read(&path).unwrap()).unwrap();
+        match shipped.architecture().clone() {
+            Architecture::Light(light) => recipe.light.architecture = light,
+            Architecture::Normal(normal) => recipe.normal.architecture = normal,
+        }
         let random = losses(&recipe);
-        recipe.init = Some(models.join(format!("{file}.safetensors")));
+        recipe.init = Some(path);
         let trained = losses(&recipe);
         assert!(
             trained[0] < 0.7 * random[0],
