@@ -5,7 +5,7 @@ import { chromium } from "playwright-core";
 import { preview } from "vite";
 
 /** Milliseconds for the longest step, a run on a GPU that two processor cores imitate. */
-const PATIENCE = 300_000;
+const PATIENCE = 480_000;
 
 const QUIET = [
   "--no-sandbox",
@@ -73,6 +73,11 @@ export class Page {
   /** Chooses a quality. @param {import("normalight").Quality} quality */
   async quality(quality) {
     await this.page.check(`input[name="quality"][value="${quality}"]`, { force: true });
+  }
+
+  /** Chooses how many photographs are used. @param {"all" | "48" | "24" | "12"} images */
+  async images(images) {
+    await this.page.check(`input[name="images"][value="${images}"]`, { force: true });
   }
 
   /** Hands files to the page as a user does. @param {import("./files.js").TestFile[]} files */
