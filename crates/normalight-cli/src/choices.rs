@@ -4,8 +4,9 @@ use clap::builder::PossibleValue;
 use normalight_core::Decoding;
 use normalight_io::{ColorMode, NormalFormat};
 use normalight_model::Quality;
+use normalight_search::Equal;
 use normalight_synth::BitDepth;
-use normalight_train::{Equal, Network};
+use normalight_train::Network;
 
 /// Where to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

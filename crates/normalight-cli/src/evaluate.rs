@@ -7,8 +7,8 @@ use crate::settings::{Estimation, describe};
 use crate::table::{Failure, Table};
 use crate::terminal::{note, print};
 use anyhow::{Result, bail};
+use normalight_evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
 use normalight_io::{OutputFolder, WeightHashes, list_diligent_objects, read_diligent_object};
-use normalight_train::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 

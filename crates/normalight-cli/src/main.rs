@@ -21,6 +21,7 @@ mod train;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use normalight_run::{Failure, RunError, exit_code};
 use normalight_train::TrainError;
 use std::process::ExitCode;
 use terminal::note;
@@ -57,11 +58,22 @@ fn main() -> ExitCode {
             ExitCode::from(INTERRUPTED)
         }
         Err(error) => {
-            note(&format!("error: {error:#}"));
+            note(&format!("error: {error:#}{}", hint(&error)));
             match error.downcast_ref::<TrainError>() {
-                Some(error) => ExitCode::from(error.exit_code()),
+                Some(error) => ExitCode::from(exit_code(error)),
                 None => ExitCode::FAILURE,
             }
         }
+    }
+}
+
+/// What the command has to offer against an error.
+fn hint(error: &anyhow::Error) -> &'static str {
+    let run_error = error
+        .downcast_ref::<TrainError>()
+        .and_then(Failure::run_error);
+    match run_error {
+        Some(RunError::Unfinished { .. }) => " (--resume continues it)",
+        _ => "",
     }
 }

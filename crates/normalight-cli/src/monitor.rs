@@ -2,7 +2,7 @@
 use crate::progress;
 use crate::terminal::note;
 use indicatif::ProgressBar;
-use normalight_train::{StepReport, TrainEvent};
+use normalight_run::{RunEvent, StepReport};
 
 /// Shows how the training goes: a bar on a terminal, a line for each validation elsewhere.
 pub(crate) struct Monitor {
@@ -35,11 +35,11 @@ impl Monitor {
         monitor
     }
 
-    pub(crate) fn show(&mut self, event: TrainEvent) {
+    pub(crate) fn show(&mut self, event: RunEvent) {
         match event {
-            TrainEvent::Step(report) => self.step(report),
-            TrainEvent::Note(text) if self.lines => self.bar.suspend(|| note(&text)),
-            TrainEvent::Note(_) => {}
+            RunEvent::Step(report) => self.step(report),
+            RunEvent::Note(text) if self.lines => self.bar.suspend(|| note(&text)),
+            RunEvent::Note(_) => {}
         }
     }
 

@@ -9,9 +9,9 @@ use crate::train::describe;
 use crate::{Outcome, device, interrupt, search_recipe};
 use anyhow::{Context, Result, bail};
 use normalight_io::write_files;
-use normalight_train::{
-    Network, RunState, SearchRecipe, SearchRun, TrainError, derive_again, random_genotypes, search,
-};
+use normalight_run::{RunError, RunState};
+use normalight_search::{SearchRecipe, SearchRun, derive_again, random_genotypes, search};
+use normalight_train::{Network, TrainError};
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -123,7 +123,9 @@ fn holds(path: &Path, content: &str) -> Result<bool> {
 /// Puts the file in front of errors that do not name it.
 fn named<T>(path: &Path, result: Result<T, TrainError>) -> Result<T> {
     match result {
-        Err(error @ (TrainError::File { .. } | TrainError::Recipe { .. })) => Err(error.into()),
+        Err(error @ TrainError::Run(RunError::File { .. } | RunError::Recipe { .. })) => {
+            Err(error.into())
+        }
         result => result.with_context(|| path.display().to_string()),
     }
 }

@@ -1,6 +1,8 @@
 //! Recipes of a search: presets inside the program, or a file.
 use anyhow::{Context, Result, bail};
-use normalight_train::{Network, SearchRecipe, TrainError};
+use normalight_run::RunError;
+use normalight_search::SearchRecipe;
+use normalight_train::{Network, TrainError};
 use std::path::Path;
 
 /// Name, network and text of every preset.
@@ -37,7 +39,7 @@ pub(crate) fn read(name: &str, network: Network) -> Result<SearchRecipe> {
     }
     let recipe = match SearchRecipe::read(Path::new(name)) {
         // These name the file themselves.
-        Err(error @ (TrainError::File { .. } | TrainError::Recipe { .. })) => {
+        Err(error @ TrainError::Run(RunError::File { .. } | RunError::Recipe { .. })) => {
             return Err(error.into());
         }
         recipe => recipe.with_context(|| name.to_owned())?,

@@ -1,5 +1,5 @@
 //! Figures of a benchmark as a table for people.
-use normalight_train::{Figures, ObjectFigures};
+use normalight_evaluate::{Figures, ObjectFigures};
 use serde::Serialize;
 
 /// The figures of all objects, for one number of images.

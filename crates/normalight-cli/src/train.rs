@@ -6,7 +6,8 @@ use crate::monitor::Monitor;
 use crate::terminal::{note, print};
 use crate::{device, interrupt};
 use anyhow::{Context, Result, bail};
-use normalight_train::{Devices, RunState, Summary, TrainError, TrainRecipe, TrainRun, train};
+use normalight_run::{RunError, RunState, Summary};
+use normalight_train::{Devices, TrainError, TrainRecipe, TrainRun, train};
 use std::path::{Path, PathBuf};
 
 /// Trains until the recipe's last step or Ctrl-C.
@@ -50,7 +51,7 @@ fn recipe(args: &TrainArgs) -> Result<TrainRecipe> {
     let path = &args.recipe;
     let mut recipe = match TrainRecipe::read(path) {
         // These name the file themselves.
-        Err(error @ (TrainError::File { .. } | TrainError::Recipe { .. })) => {
+        Err(error @ TrainError::Run(RunError::File { .. } | RunError::Recipe { .. })) => {
             return Err(error.into());
         }
         recipe => recipe.with_context(|| path.display().to_string())?,

@@ -2,25 +2,25 @@ use burn::tensor::{Device, Tensor, TensorData};
 
 /// One optimiser step's worth of samples, as plain numbers: made on the renderer's thread.
 #[derive(Debug)]
-pub(crate) struct Batch {
+pub struct Batch {
     /// Number of samples.
-    pub(crate) samples: usize,
+    pub samples: usize,
     /// Images of every sample.
-    pub(crate) images: usize,
+    pub images: usize,
     /// Side in pixels.
-    pub(crate) size: usize,
+    pub size: usize,
     /// Input channels.
-    pub(crate) channels: usize,
+    pub channels: usize,
     /// `[samples * images, size, size, channels]`.
-    pub(crate) input: Vec<f32>,
+    pub input: Vec<f32>,
     /// What the task compares with; see the tasks.
-    pub(crate) target: Vec<f32>,
+    pub target: Vec<f32>,
 }
 
 impl Batch {
     /// # Shapes
     /// `[samples * images, size, size, channels]`
-    pub(crate) fn input(&self, device: &Device) -> Tensor<4> {
+    pub fn input(&self, device: &Device) -> Tensor<4> {
         let shape = [
             self.samples * self.images,
             self.size,

@@ -1,7 +1,8 @@
 //! Rendered scenes in a folder, shared by all runs whose scenes are the same.
-use crate::checkpoint::hash_of;
 use crate::{CacheRecipe, TrainError, TrainRecipe};
 use normalight_io::write_files;
+use normalight_run::RunError;
+use normalight_run::sha256;
 use normalight_synth::{Framing, Renderer, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -40,9 +41,11 @@ impl Mark {
         scene.camera = Default::default();
         scene.sampling.crops_per_scene = 1;
         scene.shapes.validation_meshes.clear();
-        let text = toml::to_string(&scene).map_err(|error| TrainError::Recipe {
-            file: "scene".into(),
-            reason: error.to_string(),
+        let text = toml::to_string(&scene).map_err(|error| {
+            TrainError::Run(RunError::Recipe {
+                file: "scene".into(),
+                reason: error.to_string(),
+            })
         })?;
         let most = recipe.images[1];
         let (view, lamps) = match framing {
@@ -51,7 +54,7 @@ impl Mark {
         };
         Ok(Self {
             version: VERSION,
-            scene: hash_of(text.as_bytes()),
+            scene: sha256(text.as_bytes()),
             view: view.to_owned(),
             size: recipe.size,
             lamps,
@@ -98,9 +101,11 @@ impl SceneCache {
             reason,
         };
         if path.exists() {
-            let bytes = std::fs::read(&path).map_err(|reason| TrainError::File {
-                path: path.clone(),
-                reason,
+            let bytes = std::fs::read(&path).map_err(|reason| {
+                TrainError::Run(RunError::File {
+                    path: path.clone(),
+                    reason,
+                })
             })?;
             let found: Mark =
                 serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
@@ -145,7 +150,7 @@ impl SceneCache {
                 write_files(&self.folder, &[(name, scene.to_bytes()?)])?;
                 scene
             }
-            Err(reason) => return Err(TrainError::File { path, reason }),
+            Err(reason) => return Err(TrainError::Run(RunError::File { path, reason })),
         };
         Ok(scene.reseeded(number))
     }

@@ -8,11 +8,11 @@
 
 use crate::TrainRecipe;
 use crate::batch::Batch;
-use crate::optimiser::host;
 use crate::task::Task;
 use burn::module::{Module, ModuleVisitor, Param};
 use burn::optim::GradientsParams;
 use burn::tensor::{Device, Gradients, Tensor};
+use normalight_run::scalar;
 use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
@@ -30,12 +30,12 @@ pub(crate) struct Replicas<T: Task> {
 /// A device besides the main one, with a thread as long as the run: GPU streams and their memory
 /// belong to threads.
 struct Worker<N> {
-    jobs: Sender<RunSpec<N>>,
+    jobs: Sender<ReplicaJob<N>>,
     results: Receiver<PartResult>,
     thread: JoinHandle<()>,
 }
 
-struct RunSpec<N> {
+struct ReplicaJob<N> {
     network: N,
     part: Batch,
     share: f32,
@@ -75,7 +75,7 @@ impl<T: Task> Replicas<T> {
             // would move them away from the main device; a validation snapshot has its own.
             let network = network.valid();
             // A thread that is gone is noticed when its result is wanted.
-            let _ = worker.jobs.send(RunSpec {
+            let _ = worker.jobs.send(ReplicaJob {
                 network,
                 part,
                 share,
@@ -100,7 +100,7 @@ impl<T: Task> Replicas<T> {
 
 /// Computes on a device until nobody has jobs for it any more.
 fn start<T: Task>(recipe: TrainRecipe, main: Device, device: Device) -> Worker<T::Network> {
-    let (jobs, todo) = channel::<RunSpec<T::Network>>();
+    let (jobs, todo) = channel::<ReplicaJob<T::Network>>();
     let (done, results) = channel();
     let thread = std::thread::spawn(move || {
         for spec in todo {
@@ -151,11 +151,6 @@ impl ModuleVisitor for Adder<'_> {
     }
 }
 
-/// A loss as a number.
-pub(crate) fn scalar(loss: Tensor<1>) -> f32 {
-    host(loss).first().copied().unwrap_or(f32::NAN)
-}
-
 /// The samples of a batch in up to `count` parts of nearly the same size, none empty.
 fn divided(batch: &Batch, count: usize) -> Vec<Batch> {
     let count = count.min(batch.samples);
@@ -192,12 +187,12 @@ fn shares<T: Task>(parts: Vec<Batch>) -> Vec<(Batch, f32)> {
 mod tests {
     use super::*;
     use crate::light_task::LightTask;
-    use crate::loader::BatchMaker;
     use crate::normal_task::NormalTask;
-    use crate::optimiser::{HostGradients, Optimiser};
     use crate::samples::SampleMaker;
     use crate::source::Source;
     use normalight_model::{CellNormal, Genotypes, NormalBody, Upsampling};
+    use normalight_run::host;
+    use normalight_run::{BatchMaker, HostGradients, Optimiser};
     use std::sync::Arc;
 
     /// A main device, and another of a different kind: what belongs to one cannot be used on the other.

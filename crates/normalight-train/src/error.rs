@@ -1,5 +1,6 @@
 use normalight_core::CoreError;
 use normalight_model::ModelError;
+use normalight_run::{Failure, RunError};
 use normalight_synth::SynthError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -8,75 +9,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TrainError {
-    /// A recipe that does not parse.
-    #[error("{file}: {reason}")]
-    Recipe {
-        /// The recipe file.
-        file: String,
-        /// Where and why.
-        reason: String,
-    },
-    /// A number of the recipe is out of range.
-    #[error("recipe: {field} is {found}, expected {expected}")]
-    Value {
-        /// Field of the recipe.
-        field: &'static str,
-        /// Its value.
-        found: String,
-        /// The range.
-        expected: &'static str,
-    },
-    /// A file of the run cannot be read or written.
-    #[error("{path}: {reason}")]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        reason: std::io::Error,
-    },
-    /// A checkpoint that does not belong to this run or is damaged.
-    #[error("{path}: {reason}")]
-    Checkpoint {
-        /// The checkpoint file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: String,
-    },
-    /// The loss or its gradient is no finite number any more; weights and checkpoints are untouched.
-    #[error(
-        "the {quantity} became {value} at step {step} (batch seed {batch_seed}: the number of its \
-         first scene); the best weights and the last checkpoint are kept"
-    )]
-    Diverged {
-        /// The loss, or the norm of its gradient.
-        quantity: &'static str,
-        /// What it became.
-        value: f32,
-        /// Step at which it happened, from 1.
-        step: usize,
-        /// Number of the first scene of the batch.
-        batch_seed: u64,
-    },
-    /// Another process trains in the folder.
-    #[error("{path}: another process is training here")]
-    Locked {
-        /// The run's folder.
-        path: PathBuf,
-    },
-    /// The folder holds a run that has not come to its end.
-    #[error("{path}: a run is here already; continue it with --resume or choose another folder")]
-    Unfinished {
-        /// The run's folder.
-        path: PathBuf,
-    },
-    /// The folder holds a run of another recipe.
-    #[error("{path}: a run of another recipe is here: {differences}")]
-    OtherRecipe {
-        /// The run's folder.
-        path: PathBuf,
-        /// Every setting that differs, with both values.
-        differences: String,
-    },
+    /// The run itself: its recipe, folder, checkpoints, or a loss that is no number any more.
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// A cache of other scenes.
     #[error("{path}: {reason}")]
     Cache {
@@ -104,12 +39,6 @@ pub enum TrainError {
         /// What the recipe asks for.
         expected: [usize; 2],
     },
-    /// The thread that renders samples ended early.
-    #[error("a thread that makes samples stopped")]
-    Loader,
-    /// The picture of the curves could not be drawn.
-    #[error("curves: {0}")]
-    Plot(String),
     /// A training set cannot be read, or a file not written.
     #[error(transparent)]
     Io(#[from] normalight_io::IoError),
@@ -124,12 +53,11 @@ pub enum TrainError {
     Core(#[from] CoreError),
 }
 
-impl TrainError {
-    /// The command's exit code for it: 3 when training diverged, else 1.
-    pub fn exit_code(&self) -> u8 {
+impl Failure for TrainError {
+    fn run_error(&self) -> Option<&RunError> {
         match self {
-            Self::Diverged { .. } => 3,
-            _ => 1,
+            Self::Run(error) => Some(error),
+            _ => None,
         }
     }
 }
@@ -148,10 +76,10 @@ mod tests {
         let said = json.to_string();
         let errors: [(Box<dyn Error>, &str); 5] = [
             (
-                Box::new(TrainError::File {
+                Box::new(TrainError::Run(RunError::File {
                     path: path.clone(),
                     reason: reason(),
-                }),
+                })),
                 "the disk is gone",
             ),
             (

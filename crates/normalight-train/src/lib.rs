@@ -1,56 +1,40 @@
-//! Training of both networks on rendered samples, and their evaluation on benchmarks.
+//! Training of both networks on rendered samples.
 //!
-//! [`train`] is a run in a folder of its own. Inside, the training loop drives a learner (what is
-//! trained, with its optimiser and its state as named tensors) with batches that other threads make;
-//! folder, checkpoints, curves and summary are the loop's, so that another kind of training is a
-//! learner and nothing else.
+//! [`train`] is a run in a folder of its own: what is particular to each network is a [`Task`], its samples come from a
+//! [`Source`], and [`NetworkLearner`] is what the engine (`normalight-run`) drives.
 #![deny(missing_docs)]
 
-mod average;
 mod batch;
 mod cache;
-mod checkpoint;
-mod curves;
 mod data_parallel;
 mod error;
-mod evaluate;
 mod init;
-mod learner;
 mod light_task;
 mod lights;
-mod loader;
 mod model_card;
-mod named_tensors;
 mod network_learner;
 mod normal_task;
-mod optimiser;
 mod predicted;
 mod recipe;
 mod run;
-mod run_folder;
 mod samples;
-mod search;
-mod session;
 mod source;
 mod speed;
-mod summary;
 mod task;
-mod training_loop;
 
+pub use batch::Batch;
 pub use error::TrainError;
-pub use evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
+pub use light_task::LightTask;
+pub use model_card::{data, row};
+pub use network_learner::NetworkLearner;
+pub use normal_task::{NormalTask, NormalTraining};
+pub use predicted::Predictor;
 pub use recipe::{
-    CacheRecipe, Decay, DepthwiseRule, LightMix, LightSettings, MuonRecipe, Network,
-    NormalSettings, OptimiserKind, OptimiserRecipe, PublishedChoice, PublishedRecipe, Schedule,
-    TrainRecipe,
+    CacheRecipe, LightMix, LightSettings, Network, NormalSettings, PublishedChoice,
+    PublishedRecipe, TrainRecipe, read_table, take_out,
 };
-pub use run::{Devices, TrainRun, train};
-pub use search::{
-    AlphaRecipe, Budget, CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal,
-    Group, Measure, OperationTime, OperationTimes, Order, SearchRecipe, SearchRun, SearchSettings,
-    SearchStep, SeedResult, compare, derive_again, placements, random_genotypes, search,
-};
-pub use session::TrainEvent;
+pub use run::{Devices, FREE, TrainRun, threads, train, validation_pixels};
+pub use samples::{SampleMaker, first_scene};
+pub use source::Source;
 pub use speed::{OptimiserStep, SampleSource};
-pub use summary::{Best, RunState, Summary};
-pub use training_loop::StepReport;
+pub use task::Task;

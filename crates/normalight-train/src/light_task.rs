@@ -1,7 +1,6 @@
 use crate::batch::Batch;
 use crate::init::{check_start, init_error};
-use crate::named_tensors::{collect, fill};
-use crate::task::{Task, Validation};
+use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
@@ -10,6 +9,7 @@ use normalight_model::{
     LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, NoopObserver, Quality,
     Weights,
 };
+use normalight_run::{Validation, collect, fill};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
@@ -18,7 +18,7 @@ use std::f32::consts::PI;
 ///
 /// Target: `[samples * images, classes + 4]`: soft labels of the three heads side by side, the
 /// true direction, the logarithm of the intensity relative to the sample's mean.
-pub(crate) struct LightTask;
+pub struct LightTask;
 
 impl Task for LightTask {
     type Network = LightNetwork;

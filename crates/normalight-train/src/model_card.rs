@@ -1,9 +1,10 @@
 //! `model-card.md`: what weights are, where they come from and how good they are.
-use crate::{Best, Network, Summary, TrainRecipe};
+use crate::{Network, TrainRecipe};
+use normalight_run::{Best, Summary};
 use std::fmt::Write as _;
 
 /// The card of a finished run. `command`: what started it.
-pub(crate) fn model_card(recipe: &TrainRecipe, summary: &Summary, command: &str) -> String {
+pub fn model_card(recipe: &TrainRecipe, summary: &Summary, command: &str) -> String {
     let (title, what) = match recipe.network {
         Network::Light => ("Light calibration network", "light directions"),
         Network::Normal => ("Normal estimation network", "normals"),
@@ -72,11 +73,12 @@ fn figures(best: &Best, what: &str) -> String {
 }
 
 /// A line of a card's table.
-pub(crate) fn row(name: &str, value: &str) -> String {
+pub fn row(name: &str, value: &str) -> String {
     format!("| {name} | {} |\n", value.replace('|', "\\|"))
 }
 
-pub(crate) fn data(recipe: &TrainRecipe) -> String {
+/// Where the samples of a recipe come from, in words.
+pub fn data(recipe: &TrainRecipe) -> String {
     let [fewest, most] = recipe.images;
     let images = format!("{fewest} to {most} images of {0}x{0} pixels", recipe.size);
     match (&recipe.published, &recipe.cache) {

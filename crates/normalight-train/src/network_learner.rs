@@ -1,28 +1,27 @@
 //! One of the two networks as a learner: its weights, their optimiser and their average.
-use crate::average::Average;
 use crate::batch::Batch;
-use crate::data_parallel::{Replicas, scalar};
-use crate::learner::{Learner, StepOutcome};
-use crate::named_tensors::{NamedTensors, collect, fill, put, take};
-use crate::optimiser::{HostGradients, Optimiser};
+use crate::data_parallel::Replicas;
 use crate::samples::first_scene;
-use crate::task::{Task, Validation};
+use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::Device;
 use normalight_model::Weights;
+use normalight_run::{
+    Average, HostGradients, Learner, NamedTensors, Optimiser, StepOutcome, Validation, collect,
+    fill, put, scalar, seeded, take,
+};
 use normalight_synth::Sample;
-use std::sync::{Mutex, PoisonError};
 
 /// Name of the file that holds the best weights.
-pub(crate) const RESULT: &str = "weights.safetensors";
+pub const RESULT: &str = "weights.safetensors";
 
 /// Names of the parts of a checkpoint.
 const WEIGHT: &str = "weight";
 const AVERAGE: &str = "average";
 
 /// A network in training.
-pub(crate) struct NetworkLearner<'a, T: Task> {
+pub struct NetworkLearner<'a, T: Task> {
     recipe: &'a TrainRecipe,
     /// For validation.
     device: &'a Device,
@@ -39,7 +38,7 @@ pub(crate) struct NetworkLearner<'a, T: Task> {
 
 impl<'a, T: Task> NetworkLearner<'a, T> {
     /// A network with random weights of the recipe's seed. `device` and `others`: plain ones.
-    pub(crate) fn new(
+    pub fn new(
         recipe: &'a TrainRecipe,
         device: &'a Device,
         others: &[Device],
@@ -65,7 +64,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
     }
 
     /// Replaces the random weights.
-    pub(crate) fn start_from(&mut self, weights: &Weights) -> Result<(), TrainError> {
+    pub fn start_from(&mut self, weights: &Weights) -> Result<(), TrainError> {
         let network = self.network.clone();
         self.network = T::start_from(self.recipe, network, weights, self.device)?;
         let values = collect(&self.network.valid());
@@ -74,7 +73,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
     }
 
     /// What to validate on.
-    pub(crate) fn validate_on(&mut self, objects: Vec<Sample>) {
+    pub fn validate_on(&mut self, objects: Vec<Sample>) {
         self.objects = objects;
     }
 
@@ -89,25 +88,9 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
     }
 }
 
-/// Builds a network from a seed.
-///
-/// The backend has one generator for the whole program, and weights are drawn when they are first looked at: both happen
-/// here while no other run does the same.
-pub(crate) fn seeded<M: Module>(
-    device: &Device,
-    seed: u64,
-    build: impl FnOnce() -> Result<M, TrainError>,
-) -> Result<M, TrainError> {
-    static GENERATOR: Mutex<()> = Mutex::new(());
-    let _alone = GENERATOR.lock().unwrap_or_else(PoisonError::into_inner);
-    device.seed(seed);
-    let network = build()?;
-    collect(&network);
-    Ok(network)
-}
-
 impl<T: Task> Learner for NetworkLearner<'_, T> {
     type Batch = Batch;
+    type Error = TrainError;
 
     fn learn(&mut self, batch: &Batch, step: usize) -> Result<StepOutcome, TrainError> {
         let (loss, gradients) = match &mut self.replicas {

@@ -1,8 +1,7 @@
 use crate::batch::Batch;
 use crate::init::{check_start, init_error};
 use crate::lights::{disturbed, mixed};
-use crate::named_tensors::{collect, fill};
-use crate::task::{Task, Validation};
+use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor, TensorData};
@@ -12,6 +11,7 @@ use normalight_model::{
     AuxiliaryTower, LoadedNetwork, NoopObserver, NormalBody, NormalInput, NormalNetwork,
     PipelineStage, Quality, Weights,
 };
+use normalight_run::{Validation, collect, fill};
 use normalight_synth::{Framing, Sample};
 use std::collections::BTreeMap;
 
@@ -19,18 +19,19 @@ use std::collections::BTreeMap;
 ///
 /// Target: `[samples, 4, size, size]`, the true normal times the pixel's weight in the loss, and that weight; all zero
 /// outside the object.
-pub(crate) struct NormalTask;
+pub struct NormalTask;
 
 /// The normal network, and the tower that helps its features while it is trained and then goes.
 #[derive(Module, Debug)]
-pub(crate) struct NormalTraining {
-    pub(crate) network: NormalNetwork,
+pub struct NormalTraining {
+    /// What is kept.
+    pub network: NormalNetwork,
     auxiliary: Option<AuxiliaryTower>,
 }
 
 impl NormalTraining {
     /// With a tower if the recipe wants one.
-    pub(crate) fn new(network: NormalNetwork, recipe: &TrainRecipe, device: &Device) -> Self {
+    pub fn new(network: NormalNetwork, recipe: &TrainRecipe, device: &Device) -> Self {
         let settings = &recipe.normal;
         let tower = || AuxiliaryTower::new(&settings.architecture, device);
         let auxiliary = (settings.auxiliary_weight > 0.0).then(tower);

@@ -6,12 +6,13 @@ use normalight_core::{Decoding, Light};
 use normalight_model::{
     LightOptions, LoadedLightNetwork, NoopObserver, Quality, Weights, default_weights,
 };
+use normalight_run::RunError;
 use normalight_synth::{Sample, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
 /// A light network that looks at scenes. Every thread has its own: GPUs keep their work by thread.
-pub(crate) struct Predictor {
+pub struct Predictor {
     weights: Arc<Weights>,
     device: Device,
     network: Option<LoadedLightNetwork>,
@@ -29,7 +30,7 @@ impl Clone for Predictor {
 
 /// What a light network says about the lamps of one scene.
 #[derive(Debug)]
-pub(crate) struct Prediction {
+pub struct Prediction {
     /// Directions in the scene's axes, by lamp.
     directions: Vec<Vec3>,
     /// Predicted over true intensity, both relative to their means over the lamps.
@@ -41,7 +42,7 @@ impl Predictor {
     ///
     /// # Errors
     /// The file, or weights of another network.
-    pub(crate) fn of(recipe: &TrainRecipe, device: &Device) -> Result<Option<Self>, TrainError> {
+    pub fn of(recipe: &TrainRecipe, device: &Device) -> Result<Option<Self>, TrainError> {
         let mix = &recipe.normal.lights;
         (recipe.network == Network::Normal && mix.predicted > 0.0)
             .then(|| Self::new(mix.light_weights.as_deref(), device))
@@ -52,7 +53,7 @@ impl Predictor {
     ///
     /// # Errors
     /// The file, or weights of another network.
-    pub(crate) fn new(file: Option<&Path>, device: &Device) -> Result<Self, TrainError> {
+    pub fn new(file: Option<&Path>, device: &Device) -> Result<Self, TrainError> {
         let weights = match file {
             Some(path) => read_weights(path)?,
             None => {
@@ -70,7 +71,7 @@ impl Predictor {
     }
 
     /// Looks once at the whole scene under all of its lamps.
-    pub(crate) fn predict(&mut self, scene: &Scene) -> Result<Prediction, TrainError> {
+    pub fn predict(&mut self, scene: &Scene) -> Result<Prediction, TrainError> {
         let sample = scene.whole(scene.lamps());
         let (stack, mask) = (sample.to_stack()?, sample.to_mask());
         let network = match &mut self.network {
@@ -103,7 +104,7 @@ impl Prediction {
 
     /// The lights of a sample of the scene with the errors of its lamps; intensities relative to their
     /// mean.
-    pub(crate) fn lights(&self, sample: &Sample) -> Vec<Light> {
+    pub fn lights(&self, sample: &Sample) -> Vec<Light> {
         let lights: Vec<Light> = sample
             .lights
             .iter()
@@ -126,10 +127,12 @@ fn mean(lights: &[Light]) -> f32 {
 }
 
 /// Reads a weights file of either network.
-pub(crate) fn read_weights(path: &Path) -> Result<Weights, TrainError> {
-    let bytes = std::fs::read(path).map_err(|reason| TrainError::File {
-        path: path.to_owned(),
-        reason,
+pub fn read_weights(path: &Path) -> Result<Weights, TrainError> {
+    let bytes = std::fs::read(path).map_err(|reason| {
+        TrainError::Run(RunError::File {
+            path: path.to_owned(),
+            reason,
+        })
     })?;
     Ok(Weights::from_bytes(&path.display().to_string(), &bytes)?)
 }

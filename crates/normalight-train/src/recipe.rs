@@ -1,20 +1,17 @@
 //! Everything that decides a training run.
 mod check;
-mod difference;
 mod genotype;
 mod networks;
-mod optimiser;
 mod sources;
 
-pub(crate) use check::{MOST_GIGABYTES, check};
-pub(crate) use difference::{Difference, differences};
-pub(crate) use genotype::{read_table, take_out};
+pub(crate) use check::MOST_GIGABYTES;
+pub use genotype::{read_table, take_out};
 pub use networks::{LightMix, LightSettings, NormalSettings};
-pub use optimiser::{Decay, DepthwiseRule, MuonRecipe, OptimiserKind, OptimiserRecipe, Schedule};
 pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
 
 use crate::TrainError;
 use normalight_model::{Genotypes, LightBody, NormalBody, light_cost, normal_cost};
+use normalight_run::{OptimiserRecipe, RunError};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -116,7 +113,7 @@ impl TrainRecipe {
     /// Reads and checks a recipe file; paths in it start at its folder and come out absolute.
     ///
     /// # Errors
-    /// [`TrainError::File`], [`TrainError::Recipe`] or [`TrainError::Value`].
+    /// [`RunError::File`], [`RunError::Recipe`] or [`RunError::Value`].
     pub fn read(path: &Path) -> Result<Self, TrainError> {
         let text = read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -126,7 +123,7 @@ impl TrainRecipe {
     /// Parses and checks a recipe; a genotype file in it is looked for in the current folder.
     ///
     /// # Errors
-    /// [`TrainError::Recipe`] or [`TrainError::Value`]; those of a genotype file.
+    /// [`RunError::Recipe`] or [`RunError::Value`]; those of a genotype file.
     pub fn parse(file: &str, text: &str) -> Result<Self, TrainError> {
         Self::parse_in(Path::new(""), file, text)
     }
@@ -154,7 +151,7 @@ impl TrainRecipe {
     }
 
     /// A recipe that may lack its cells, see [`Self::read_without_cells`].
-    pub(crate) fn from_open_table(file: &str, mut table: toml::Table) -> Result<Self, TrainError> {
+    pub fn from_open_table(file: &str, mut table: toml::Table) -> Result<Self, TrainError> {
         genotype::fill_in(&mut table);
         Self::from_table(file, table)
     }
@@ -169,10 +166,12 @@ impl TrainRecipe {
 
     /// Relative paths start at the folder of the recipe's file and become absolute: a run may be continued from another
     /// folder than it was begun in.
-    pub(crate) fn with_paths_from(mut self, file: &Path) -> Result<Self, TrainError> {
-        let file = std::path::absolute(file).map_err(|reason| TrainError::File {
-            path: file.to_owned(),
-            reason,
+    pub fn with_paths_from(mut self, file: &Path) -> Result<Self, TrainError> {
+        let file = std::path::absolute(file).map_err(|reason| {
+            TrainError::Run(RunError::File {
+                path: file.to_owned(),
+                reason,
+            })
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         self.scene.resolve_paths(folder);
@@ -190,7 +189,7 @@ impl TrainRecipe {
     /// The same with these cells.
     ///
     /// # Errors
-    /// [`TrainError::Value`] when the network is a plain one, or the genotypes have none of its cells.
+    /// [`RunError::Value`] when the network is a plain one, or the genotypes have none of its cells.
     pub fn with_cells(mut self, genotypes: &Genotypes) -> Result<Self, TrainError> {
         let done = match self.network {
             Network::Light => match (&mut self.light.architecture.body, &genotypes.light) {
@@ -211,21 +210,23 @@ impl TrainRecipe {
         if done {
             return Ok(self);
         }
-        Err(TrainError::Value {
+        Err(TrainError::Run(RunError::Value {
             field: "genotype",
             found: format!("not for this {} network", self.network.name()),
             expected: "cells of the recipe's network, which must be one of cells",
-        })
+        }))
     }
 
     /// The recipe as TOML.
     ///
     /// # Errors
-    /// [`TrainError::Recipe`], for a path that is not Unicode.
+    /// [`RunError::Recipe`], for a path that is not Unicode.
     pub fn to_toml(&self) -> Result<String, TrainError> {
-        toml::to_string(self).map_err(|error| TrainError::Recipe {
-            file: "recipe.toml".into(),
-            reason: error.to_string(),
+        toml::to_string(self).map_err(|error| {
+            TrainError::Run(RunError::Recipe {
+                file: "recipe.toml".into(),
+                reason: error.to_string(),
+            })
         })
     }
 
@@ -238,21 +239,24 @@ impl TrainRecipe {
     }
 
     /// Learning rate of a step, from 0.
-    pub(crate) fn rate(&self, step: usize) -> f32 {
+    pub fn rate(&self, step: usize) -> f32 {
         self.optimiser.rate(step, self.steps)
     }
 }
 
 fn read_text(path: &Path) -> Result<String, TrainError> {
-    std::fs::read_to_string(path).map_err(|reason| TrainError::File {
-        path: path.to_owned(),
-        reason,
+    std::fs::read_to_string(path).map_err(|reason| {
+        TrainError::Run(RunError::File {
+            path: path.to_owned(),
+            reason,
+        })
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use normalight_run::differences;
 
     const GOOD: &str = "network = \"normal\"\nsteps = 10\nsize = 32\n";
 
@@ -304,7 +308,7 @@ mod tests {
         let found = differences(&before, &now).unwrap();
         let keys: Vec<_> = found.iter().map(|one| one.key.as_str()).collect();
         assert_eq!(keys, ["optimiser.learning_rate", "steps"]);
-        assert!(!found[0].is_free() && found[1].is_free());
+        assert!(!crate::FREE.contains(&keys[0]) && crate::FREE.contains(&keys[1]));
         assert_eq!(found[1].to_string(), "steps was 10, is 20");
     }
 }

@@ -6,16 +6,23 @@ use crate::normal_task::NormalTask;
 use crate::predicted::{Predictor, read_weights};
 use crate::recipe::MOST_GIGABYTES;
 use crate::samples::SampleMaker;
-use crate::session::{RunSpec, Session, TrainEvent, run_job};
 use crate::source::Source;
 use crate::task::Task;
-use crate::training_loop::LoopSchedule;
-use crate::{Network, Summary, TrainError, TrainRecipe};
+use crate::{Network, TrainError, TrainRecipe};
 use burn::tensor::Device;
+use normalight_run::{LoopSchedule, RunEvent, RunSpec, Session, Summary, run_job};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::available_parallelism;
+
+/// What may change in a recipe when a run is continued: how long it runs and how often it reports, but not what it computes.
+pub const FREE: [&str; 4] = [
+    "checkpoint_every",
+    "loader_threads",
+    "steps",
+    "validate_every",
+];
 
 /// Side in pixels of the whole objects that normals are validated on.
 const VALIDATION_PIXELS: usize = 96;
@@ -63,7 +70,7 @@ impl<'a> From<&'a Device> for Devices<'a> {
 pub fn train<'a>(
     run: &TrainRun,
     devices: impl Into<Devices<'a>>,
-    mut observe: impl FnMut(TrainEvent) -> ControlFlow<()>,
+    mut observe: impl FnMut(RunEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
     let (recipe, devices) = (&run.recipe, &devices.into());
     recipe.validate()?;
@@ -71,7 +78,8 @@ pub fn train<'a>(
         folder: run.folder.clone(),
         resume: run.resume,
         recipe: recipe.to_toml()?,
-        network: recipe.network,
+        free: &FREE,
+        network: recipe.network.name().to_owned(),
         parameters: recipe.parameters(),
         seed: recipe.seed,
         schedule: LoopSchedule {
@@ -106,7 +114,7 @@ fn train_network<T, O>(
 ) -> Result<ControlFlow<()>, TrainError>
 where
     T: Task,
-    O: FnMut(TrainEvent) -> ControlFlow<()>,
+    O: FnMut(RunEvent) -> ControlFlow<()>,
 {
     // Before anything is written: a file that the recipe names may be missing.
     let source = Arc::new(Source::open(recipe, T::FRAMING)?);
@@ -128,7 +136,7 @@ where
 }
 
 /// Side in pixels of the objects to validate on: normals on whole objects, whatever the crops to train on are.
-pub(crate) fn validation_pixels(recipe: &TrainRecipe) -> usize {
+pub fn validation_pixels(recipe: &TrainRecipe) -> usize {
     match recipe.network {
         Network::Light => recipe.size,
         Network::Normal => VALIDATION_PIXELS,
@@ -137,7 +145,7 @@ pub(crate) fn validation_pixels(recipe: &TrainRecipe) -> usize {
 
 /// Threads that make samples: one core is left to the training, and no more memory is taken than a
 /// recipe may ask for.
-pub(crate) fn threads(recipe: &TrainRecipe) -> usize {
+pub fn threads(recipe: &TrainRecipe) -> usize {
     recipe.loader_threads.unwrap_or_else(|| {
         let cores = available_parallelism().map_or(1, usize::from);
         let fit = MOST_GIGABYTES / recipe.gigabytes_of_scenes().max(1e-9);

@@ -1,16 +1,16 @@
 //! From a recipe to batches of samples.
 use crate::batch::Batch;
-use crate::loader::BatchMaker;
 use crate::predicted::{Prediction, Predictor};
 use crate::source::Source;
 use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
+use normalight_run::BatchMaker;
 use normalight_synth::{Framing, Sample, Scene};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// Makes the batches of one network's training.
-pub(crate) struct SampleMaker<T> {
+pub struct SampleMaker<T> {
     recipe: Arc<TrainRecipe>,
     source: Arc<Source>,
     predictor: Option<Predictor>,
@@ -22,7 +22,7 @@ pub(crate) struct SampleMaker<T> {
 }
 
 /// Number of the first scene of a step's batch; the others follow it.
-pub(crate) fn first_scene(recipe: &TrainRecipe, framing: Framing, step: usize) -> u64 {
+pub fn first_scene(recipe: &TrainRecipe, framing: Framing, step: usize) -> u64 {
     match framing {
         Framing::WholeObject => seed(recipe, step, 0),
         Framing::Crop => seed(recipe, step / recipe.scene.sampling.crops_per_scene, 0),
@@ -34,11 +34,8 @@ fn seed(recipe: &TrainRecipe, major: usize, minor: usize) -> u64 {
 }
 
 impl<T: Task> SampleMaker<T> {
-    pub(crate) fn new(
-        recipe: &TrainRecipe,
-        source: &Arc<Source>,
-        predictor: Option<Predictor>,
-    ) -> Self {
+    /// `predictor`: for a recipe that asks for predicted lights.
+    pub fn new(recipe: &TrainRecipe, source: &Arc<Source>, predictor: Option<Predictor>) -> Self {
         Self {
             recipe: Arc::new(recipe.clone()),
             source: Arc::clone(source),
@@ -88,6 +85,7 @@ impl<T: Task> SampleMaker<T> {
 
 impl<T: Task> BatchMaker for SampleMaker<T> {
     type Batch = Batch;
+    type Error = TrainError;
 
     fn for_thread(&self) -> Self {
         Self::new(&self.recipe, &self.source, self.predictor.clone())

@@ -14,13 +14,15 @@ const SEARCH_SHARE: f64 = 0.1;
 const SEARCH_SIDE: usize = 64;
 
 /// Where samples come from.
-pub(crate) enum Source {
+pub enum Source {
+    /// From a renderer, or from scenes that it made before.
     Rendered(Box<Rendered>),
+    /// From photographs, or pictures that others rendered.
     Published(Box<Published>),
 }
 
 /// Scenes rendered when they are needed.
-pub(crate) struct Rendered {
+pub struct Rendered {
     renderer: Renderer,
     /// Of validation objects.
     validation: Renderer,
@@ -30,7 +32,7 @@ pub(crate) struct Rendered {
 }
 
 /// A published set and how it is divided.
-pub(crate) struct Published {
+pub struct Published {
     set: PublishedSet,
     split: PublishedSplit,
     part: PublishedChoice,
@@ -43,7 +45,7 @@ impl Source {
     ///
     /// # Errors
     /// The files that the recipe names.
-    pub(crate) fn open(recipe: &TrainRecipe, framing: Framing) -> Result<Self, TrainError> {
+    pub fn open(recipe: &TrainRecipe, framing: Framing) -> Result<Self, TrainError> {
         let Some(published) = &recipe.published else {
             let renderer = Renderer::new(recipe.scene.clone())?;
             let cache = recipe.cache.as_ref();
@@ -65,7 +67,7 @@ impl Source {
     ///
     /// # Errors
     /// As of [`Self::open`]; a mesh alone.
-    pub(crate) fn halves(recipe: &TrainRecipe) -> Result<[Self; 2], TrainError> {
+    pub fn halves(recipe: &TrainRecipe) -> Result<[Self; 2], TrainError> {
         if let Some(published) = &recipe.published {
             let half = |second| Published::open(recipe, published, second);
             return Ok([half(false)?, half(true)?].map(|half| Self::Published(Box::new(half))));
@@ -83,7 +85,7 @@ impl Source {
     }
 
     /// Scene `number`, fit for samples of up to `images` images and `size` pixels.
-    pub(crate) fn scene(
+    pub fn scene(
         &self,
         recipe: &TrainRecipe,
         number: u64,
@@ -114,7 +116,7 @@ impl Source {
     }
 
     /// Whole unseen objects, for validation; of meshes that are not trained on where the recipe names such.
-    pub(crate) fn validation_objects(
+    pub fn validation_objects(
         &self,
         recipe: &TrainRecipe,
         pixels: usize,

@@ -1,13 +1,12 @@
 //! Parts of a training step by themselves, for measuring their speed.
-use crate::loader::BatchMaker;
 use crate::normal_task::NormalTask;
-use crate::optimiser::{HostGradients, Optimiser};
 use crate::samples::SampleMaker;
 use crate::source::Source;
 use crate::task::Task;
-use crate::{OptimiserRecipe, TrainError, TrainRecipe};
+use crate::{TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::Gradients;
+use normalight_run::{BatchMaker, HostGradients, Optimiser, OptimiserRecipe};
 use std::sync::Arc;
 
 /// The optimiser as training uses it.

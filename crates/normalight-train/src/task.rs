@@ -4,20 +4,11 @@ use burn::module::Module;
 use burn::tensor::{Device, Tensor};
 use normalight_core::Light;
 use normalight_model::Weights;
+use normalight_run::Validation;
 use normalight_synth::{Framing, Sample};
-use std::collections::BTreeMap;
-
-/// Errors on unseen objects.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Validation {
-    /// Mean error in degrees; it decides which weights are the best.
-    pub(crate) degrees: f32,
-    /// More about it, by name.
-    pub(crate) figures: BTreeMap<String, f32>,
-}
 
 /// What is particular to the training of one of the networks.
-pub(crate) trait Task: Sized + 'static {
+pub trait Task: Sized + 'static {
     /// The network being trained, with whatever helps it while it is.
     type Network: Module + std::fmt::Debug + 'static;
 

@@ -2,7 +2,8 @@
 mod common;
 
 use common::*;
-use normalight_train::{Network, RunState, Summary, TrainError};
+use normalight_run::{RunError, RunState, Summary, exit_code};
+use normalight_train::TrainError;
 use std::fs::File;
 
 #[test]
@@ -101,7 +102,10 @@ fn one_process_at_a_time() {
     let lock = File::create(folder.path().join("lock")).unwrap();
     lock.lock().unwrap();
     let error = run(folder.path(), &recipe, false, None).unwrap_err();
-    assert!(matches!(error, TrainError::Locked { .. }), "{error}");
+    assert!(
+        matches!(error, TrainError::Run(RunError::Locked { .. })),
+        "{error}"
+    );
     assert_eq!(contents(folder.path()).len(), 1);
     drop(lock);
     whole(folder.path(), &recipe);
@@ -118,7 +122,7 @@ fn an_interrupted_run_waits_for_resume() {
     assert_eq!(ran.summary.state, RunState::Interrupted);
     assert_eq!((ran.summary.exit_code, ran.summary.steps), (Some(130), 1));
     let error = run(folder.path(), &recipe, false, None).unwrap_err();
-    assert!(error.to_string().contains("--resume"), "{error}");
+    assert!(error.to_string().contains("continue it"), "{error}");
     // A run that was killed before its first checkpoint starts afresh.
     for name in ["checkpoint.safetensors", "summary.json"] {
         std::fs::remove_file(folder.path().join(name)).unwrap();
@@ -136,16 +140,16 @@ fn training_that_diverges_keeps_what_was_good() {
                 clip = 1e6\nbetas = [0.0, 0.0]\n";
     let recipe = recipe(&format!("{LIGHT}{high}"));
     let error = run(folder.path(), &recipe, false, None).unwrap_err();
-    let TrainError::Diverged {
+    let TrainError::Run(RunError::Diverged {
         step, batch_seed, ..
-    } = error
+    }) = error
     else {
         panic!("{error}");
     };
     assert!(step > 1);
     // Every step has two scenes of its own.
     assert_eq!(batch_seed, 2 * (step as u64 - 1));
-    assert_eq!(error.exit_code(), 3);
+    assert_eq!(exit_code(&error), 3);
     let message = error.to_string();
     assert!(
         message.contains(&format!("at step {step} (batch seed {batch_seed}")),
@@ -159,7 +163,7 @@ fn training_that_diverges_keeps_what_was_good() {
     );
     assert_eq!(summary.steps, step - 1);
     assert_eq!(summary.reason.as_deref(), Some(message.as_str()));
-    assert_eq!(summary.network, Network::Light);
+    assert_eq!(summary.network, "light");
     assert!(text(folder.path(), "log.txt").contains(&message));
     // The best weights are still there, and finite.
     normalight_model::Weights::from_bytes("best", &found["weights.safetensors"]).unwrap();

@@ -2,8 +2,9 @@
 
 use burn::tensor::Device;
 use normalight_io::{ObjectToPublish, PublishedEntry, PublishedPart, PublishedWriter};
+use normalight_run::RunEvent;
 use normalight_synth::{BitDepth, Framing, Preset, Renderer};
-use normalight_train::{TrainError, TrainEvent, TrainRecipe, TrainRun, train};
+use normalight_train::{TrainError, TrainRecipe, TrainRun, train};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -46,7 +47,7 @@ fn losses(set: &Path, part: &str, more: &str) -> Result<Vec<f32>, TrainError> {
     };
     let mut losses = Vec::new();
     train(&run, &Device::flex(), |event| {
-        if let TrainEvent::Step(report) = event {
+        if let RunEvent::Step(report) = event {
             losses.push(report.loss);
         }
         ControlFlow::Continue(())

@@ -3,7 +3,8 @@ mod common;
 
 use common::*;
 use normalight_model::Weights;
-use normalight_train::{RunState, TrainError, TrainRecipe};
+use normalight_run::{RunError, RunState};
+use normalight_train::{TrainError, TrainRecipe};
 use std::path::Path;
 
 /// Networks with everything that has a state: batch norm, the auxiliary tower, averaged weights.
@@ -109,7 +110,7 @@ fn a_run_can_be_made_longer_and_nothing_else() {
     // Not by accident.
     let refused = run(&folder, &long, false, None).unwrap_err();
     assert!(
-        matches!(refused, TrainError::Unfinished { .. }),
+        matches!(refused, TrainError::Run(RunError::Unfinished { .. })),
         "{refused}"
     );
     let ran = run(&folder, &long, true, None).unwrap();

@@ -1,7 +1,8 @@
 //! Training on the GPU's code: a driver that imitates a GPU takes the same steps as the CPU.
 
 use burn::tensor::{Device, DeviceKind};
-use normalight_train::{TrainEvent, TrainRecipe, TrainRun, train};
+use normalight_run::RunEvent;
+use normalight_train::{TrainRecipe, TrainRun, train};
 use safetensors::SafeTensors;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -50,7 +51,7 @@ fn run(
     };
     let mut losses = Vec::new();
     train(&run, device, |event| {
-        let TrainEvent::Step(report) = event else {
+        let RunEvent::Step(report) = event else {
             return ControlFlow::Continue(());
         };
         losses.push(report.loss);

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use burn::tensor::{Device, Distribution, Tensor};
 use normalight_io::write_files;
 use normalight_model::{Operation, OperationLayer};
-use normalight_train::{OperationTime, OperationTimes, placements};
+use normalight_search::{OperationTime, OperationTimes, placements};
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -4,7 +4,8 @@ use crate::args::BenchSearchArgs;
 use crate::{Outcome, interrupt, search_recipe};
 use anyhow::{Context, Result};
 use burn::tensor::Device;
-use normalight_train::{Network, Order, SearchStep};
+use normalight_search::{Order, SearchStep};
+use normalight_train::Network;
 use serde::Serialize;
 use std::time::{Duration, Instant};
 

@@ -5,9 +5,9 @@ use crate::monitor::Monitor;
 use crate::terminal::{note, print};
 use crate::{Outcome, device, interrupt};
 use anyhow::{Context, Result};
-use normalight_train::{
-    CompareEvent, CompareRun, RunState, SeedResult, TrainError, TrainEvent, TrainRecipe, compare,
-};
+use normalight_run::{RunError, RunEvent, RunState};
+use normalight_search::{CompareEvent, CompareRun, SeedResult, compare};
+use normalight_train::{TrainError, TrainRecipe};
 
 /// Trains everything until the last step of the last one, or Ctrl-C.
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
     });
     let comparison = match compared {
         // Of the schedule, whose file it does not name.
-        Err(error @ TrainError::Value { .. }) => {
+        Err(error @ TrainError::Run(RunError::Value { .. })) => {
             return Err(error).with_context(|| args.recipe.display().to_string());
         }
         compared => compared?,
@@ -77,7 +77,7 @@ impl Watch {
                 self.trained = false;
             }
             CompareEvent::Training(event) => {
-                self.trained |= matches!(event, TrainEvent::Step(_));
+                self.trained |= matches!(event, RunEvent::Step(_));
                 if let Some((_, monitor)) = &mut self.training {
                     monitor.show(event);
                 }

@@ -1,5 +1,6 @@
 use super::{Network, TrainRecipe};
 use crate::TrainError;
+use normalight_run::{RunError, check};
 
 /// Gigabytes of memory that scenes and validation objects may take.
 pub(crate) const MOST_GIGABYTES: f64 = 16.0;
@@ -18,81 +19,63 @@ impl TrainRecipe {
         let scenes = self.gigabytes_of_scenes() * self.loader_threads.unwrap_or(1) as f64;
         let field = "gigabytes of scenes (batch, loader_threads, \
                      scene.sampling.lights_per_scene, scene.shapes.crop_object_pixels)";
-        check(field, scenes, 0.0, MOST_GIGABYTES, EXPECTED)?;
+        check(field, scenes, 0.0..=MOST_GIGABYTES, EXPECTED)?;
         let objects = (self.validation_objects * 144) as f64 * (self.size * self.size) as f64 / 1e9;
         let field = "gigabytes of validation_objects";
-        check(field, objects, 0.0, MOST_GIGABYTES, EXPECTED)
+        Ok(check(field, objects, 0.0..=MOST_GIGABYTES, EXPECTED)?)
     }
 
     /// Checks every number.
     ///
     /// # Errors
-    /// [`TrainError::Value`], or the errors of the scene and the architectures.
+    /// [`RunError::Value`], or the errors of the scene and the architectures.
     pub fn validate(&self) -> Result<(), TrainError> {
         let [fewest, most] = self.images;
-        check("steps", self.steps, 1, 100_000_000, "1 or more")?;
-        check("batch", self.batch, 1, 1024, "1 to 1024")?;
+        check("steps", self.steps, 1..=100_000_000, "1 or more")?;
+        check("batch", self.batch, 1..=1024, "1 to 1024")?;
         let field = "images, fewest";
-        check(field, fewest, 3, most, "3 or more, at most the most")?;
-        check("images, most", most, fewest, 256, "at most 256")?;
-        check("size", self.size, 16, 512, "16 to 512")?;
+        check(field, fewest, 3..=most, "3 or more, at most the most")?;
+        check("images, most", most, fewest..=256, "at most 256")?;
+        check("size", self.size, 16..=512, "16 to 512")?;
         let many = 1_000_000_000;
-        check("validate_every", self.validate_every, 1, many, "1 or more")?;
+        check("validate_every", self.validate_every, 1..=many, "1 or more")?;
         let field = "checkpoint_every";
-        check(field, self.checkpoint_every, 1, many, "1 or more")?;
+        check(field, self.checkpoint_every, 1..=many, "1 or more")?;
         // More would not leave room for the steps in the seeds of samples.
-        check("seed", self.seed, 0, (1 << 20) - 1, "0 to 1048575")?;
+        check("seed", self.seed, 0..=(1 << 20) - 1, "0 to 1048575")?;
         let field = "validation_objects";
-        check(field, self.validation_objects, 1, 10_000, "1 to 10000")?;
+        check(field, self.validation_objects, 1..=10_000, "1 to 10000")?;
         let threads = self.loader_threads.unwrap_or(1);
-        check("loader_threads", threads, 1, 1024, "1 to 1024")?;
+        check("loader_threads", threads, 1..=1024, "1 to 1024")?;
         self.check_memory()?;
         self.optimiser.validate()?;
         self.light.validate()?;
         self.normal.validate()?;
         self.scene.validate()?;
         if let Some(cache) = &self.cache {
-            check("cache.scenes", cache.scenes, 1, 100_000_000, "1 or more")?;
+            check("cache.scenes", cache.scenes, 1..=100_000_000, "1 or more")?;
             if self.published.is_some() {
-                return Err(TrainError::Value {
+                return Err(TrainError::Run(RunError::Value {
                     field: "cache",
                     found: "given beside published".into(),
                     expected: "rendered scenes; a published set is read from its own folder",
-                });
+                }));
             }
         }
         if self.network == Network::Light && self.size != self.light.architecture.input_size {
-            return Err(TrainError::Value {
+            return Err(TrainError::Run(RunError::Value {
                 field: "size",
                 found: self.size.to_string(),
                 expected: "the light network's input_size",
-            });
+            }));
         }
         if self.network == Network::Normal && !self.size.is_multiple_of(8) {
-            return Err(TrainError::Value {
+            return Err(TrainError::Run(RunError::Value {
                 field: "size",
                 found: self.size.to_string(),
                 expected: "a multiple of 8",
-            });
+            }));
         }
         Ok(())
     }
-}
-
-pub(crate) fn check<T: PartialOrd + std::fmt::Display>(
-    field: &'static str,
-    found: T,
-    low: T,
-    high: T,
-    expected: &'static str,
-) -> Result<(), TrainError> {
-    // NaN compares false and is refused.
-    if found >= low && found <= high {
-        return Ok(());
-    }
-    Err(TrainError::Value {
-        field,
-        found: found.to_string(),
-        expected,
-    })
 }

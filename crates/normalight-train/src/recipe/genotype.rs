@@ -1,5 +1,6 @@
 use crate::TrainError;
 use normalight_model::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
+use normalight_run::RunError;
 use serde::Serialize;
 use std::path::Path;
 use toml::{Table, Value};
@@ -8,13 +9,17 @@ use toml::{Table, Value};
 const NETWORKS: [&str; 2] = ["light", "normal"];
 
 pub(super) fn failed(file: &str, error: &toml::de::Error) -> TrainError {
-    TrainError::Recipe {
+    TrainError::Run(RunError::Recipe {
         file: file.to_owned(),
         reason: error.to_string(),
-    }
+    })
 }
 
-pub(crate) fn read_table(file: &str, text: &str) -> Result<Table, TrainError> {
+/// Parses a recipe as a table of values that are yet to be checked.
+///
+/// # Errors
+/// [`RunError::Recipe`] for what is no TOML.
+pub fn read_table(file: &str, text: &str) -> Result<Table, TrainError> {
     toml::from_str(text).map_err(|error| failed(file, &error))
 }
 
@@ -70,7 +75,7 @@ pub(super) fn fill_in(recipe: &mut Table) {
 }
 
 /// Takes all cells out of a recipe.
-pub(crate) fn take_out(recipe: &mut Table) {
+pub fn take_out(recipe: &mut Table) {
     for network in NETWORKS {
         if let Some(body) = body(recipe, network) {
             body.remove("genotype");
@@ -83,18 +88,22 @@ fn value<T: Serialize>(genotype: &T) -> Option<Value> {
 }
 
 fn read(path: &Path, network: &str) -> Result<Value, TrainError> {
-    let text = std::fs::read_to_string(path).map_err(|reason| TrainError::File {
-        path: path.to_owned(),
-        reason,
+    let text = std::fs::read_to_string(path).map_err(|reason| {
+        TrainError::Run(RunError::File {
+            path: path.to_owned(),
+            reason,
+        })
     })?;
     let genotypes = Genotypes::from_json(&path.display().to_string(), &text)?;
     let cells = match network {
         "light" => genotypes.light.map(Value::try_from),
         _ => genotypes.normal.map(Value::try_from),
     };
-    let recipe_error = |reason: String| TrainError::Recipe {
-        file: path.display().to_string(),
-        reason,
+    let recipe_error = |reason: String| {
+        TrainError::Run(RunError::Recipe {
+            file: path.display().to_string(),
+            reason,
+        })
     };
     cells
         .ok_or_else(|| recipe_error(format!("holds no cells of a {network} network")))?

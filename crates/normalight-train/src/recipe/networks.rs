@@ -1,6 +1,6 @@
-use super::check::check;
 use crate::TrainError;
 use normalight_model::{LightArchitecture, NormalArchitecture};
+use normalight_run::check;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -33,11 +33,11 @@ impl Default for LightSettings {
 impl LightSettings {
     pub(super) fn validate(&self) -> Result<(), TrainError> {
         let field = "light.label_deviation";
-        check(field, self.label_deviation, 0.1, 10.0, "0.1 to 10")?;
+        check(field, self.label_deviation, 0.1..=10.0, "0.1 to 10")?;
         let field = "light.direction_weight";
-        check(field, self.direction_weight, 0.0, 1e3, "0 to 1000")?;
+        check(field, self.direction_weight, 0.0..=1e3, "0 to 1000")?;
         let field = "light.intensity_weight";
-        check(field, self.intensity_weight, 0.0, 1e3, "0 to 1000")?;
+        check(field, self.intensity_weight, 0.0..=1e3, "0 to 1000")?;
         Ok(self.architecture.validate()?)
     }
 }
@@ -107,22 +107,32 @@ impl Default for LightMix {
 impl NormalSettings {
     pub(super) fn validate(&self) -> Result<(), TrainError> {
         let field = "normal.auxiliary_weight";
-        check(field, self.auxiliary_weight, 0.0, 10.0, "0 to 10")?;
+        check(field, self.auxiliary_weight, 0.0..=10.0, "0 to 10")?;
         let field = "normal.curvature_weight";
-        check(field, self.curvature_weight, 0.0, 100.0, "0 to 100")?;
+        check(field, self.curvature_weight, 0.0..=100.0, "0 to 100")?;
         let field = "normal.light_noise_degrees";
-        check(field, self.light_noise_degrees, 0.0, 45.0, "0 to 45")?;
+        check(field, self.light_noise_degrees, 0.0..=45.0, "0 to 45")?;
         let field = "normal.light_drift_degrees";
-        check(field, self.light_drift_degrees, 0.0, 45.0, "0 to 45")?;
+        check(field, self.light_drift_degrees, 0.0..=45.0, "0 to 45")?;
         let field = "normal.intensity_noise";
-        check(field, self.intensity_noise, 0.0, 0.5, "0 to 0.5")?;
+        check(field, self.intensity_noise, 0.0..=0.5, "0 to 0.5")?;
         let mix = &self.lights;
-        check("normal.lights.true", mix.truth, 0.0, 1.0, "0 to 1")?;
-        check("normal.lights.perturbed", mix.perturbed, 0.0, 1.0, "0 to 1")?;
-        check("normal.lights.predicted", mix.predicted, 0.0, 1.0, "0 to 1")?;
+        check("normal.lights.true", mix.truth, 0.0..=1.0, "0 to 1")?;
+        check(
+            "normal.lights.perturbed",
+            mix.perturbed,
+            0.0..=1.0,
+            "0 to 1",
+        )?;
+        check(
+            "normal.lights.predicted",
+            mix.predicted,
+            0.0..=1.0,
+            "0 to 1",
+        )?;
         let sum = mix.truth + mix.perturbed + mix.predicted;
         let field = "sum of the shares of normal.lights";
-        check(field, sum, 0.999, 1.001, "1")?;
+        check(field, sum, 0.999..=1.001, "1")?;
         Ok(self.architecture.validate()?)
     }
 }

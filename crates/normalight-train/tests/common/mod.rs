@@ -1,7 +1,8 @@
 //! Tiny runs.
 #![allow(dead_code)]
 use burn::tensor::Device;
-use normalight_train::{Summary, TrainError, TrainEvent, TrainRecipe, TrainRun, train};
+use normalight_run::{RunEvent, Summary};
+use normalight_train::{TrainError, TrainRecipe, TrainRun, train};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -45,8 +46,8 @@ pub fn run(
     let (mut losses, mut notes) = (Vec::new(), Vec::new());
     let summary = train(&run, &Device::flex(), |event| {
         match event {
-            TrainEvent::Note(note) => notes.push(note),
-            TrainEvent::Step(report) => {
+            RunEvent::Note(note) => notes.push(note),
+            RunEvent::Step(report) => {
                 losses.push(report.loss);
                 if stop_at == Some(report.step) {
                     return ControlFlow::Break(());

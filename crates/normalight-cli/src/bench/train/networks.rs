@@ -6,7 +6,8 @@ use normalight_model::{
     CellNormal, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal, Upsampling,
     normal_cost, paper_genotypes,
 };
-use normalight_train::{OptimiserKind, OptimiserRecipe, OptimiserStep, SampleSource, TrainRecipe};
+use normalight_run::{OptimiserKind, OptimiserRecipe};
+use normalight_train::{OptimiserStep, SampleSource, TrainRecipe};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 

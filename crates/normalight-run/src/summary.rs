@@ -1,0 +1,122 @@
+//! `summary.json`: how a run stands, for job schedulers and workflow engines.
+use crate::{Best, Failure, RunError, RunSpec, TrainingState, sha256};
+use serde::{Deserialize, Serialize};
+
+/// How a run stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunState {
+    /// It trains; or it was killed, when no process does.
+    Running,
+    /// All steps are taken.
+    Finished,
+    /// It was asked to stop, and can be continued.
+    Interrupted,
+    /// An error ended it.
+    Failed,
+}
+
+/// Everything that a script wants to know of a run; the content of `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// How it stands.
+    pub state: RunState,
+    /// What went wrong.
+    pub reason: Option<String>,
+    /// The exit code of the command: 0 finished, 1 error, 3 diverged, 130 interrupted; nothing while
+    /// it runs.
+    pub exit_code: Option<u8>,
+    /// Which network.
+    pub network: String,
+    /// Its number of weights.
+    pub parameters: usize,
+    /// Seed of weights and samples.
+    pub seed: u64,
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps to take.
+    pub steps_planned: usize,
+    /// The best validation.
+    pub best: Option<Best>,
+    /// Loss of the last step.
+    pub loss: Option<f32>,
+    /// Hours of training.
+    pub hours: f64,
+    /// How many of them were spent waiting for samples.
+    pub hours_waited: f64,
+    /// SHA-256 of `weights.safetensors`.
+    pub weights_sha256: Option<String>,
+    /// SHA-256 of `recipe.toml`.
+    pub recipe_sha256: String,
+    /// Version of Normalight.
+    pub version: String,
+}
+
+/// What a process that fails ends with, unless the run diverged.
+const FAILED: u8 = 1;
+
+/// What a process ends with that carried out a run which an error ended: 3 when it diverged, else 1.
+pub fn exit_code(error: &impl Failure) -> u8 {
+    match error.run_error() {
+        Some(RunError::Diverged { .. }) => 3,
+        _ => FAILED,
+    }
+}
+
+impl Summary {
+    /// `weights`: content of the weights file, where there is one.
+    pub(crate) fn new(
+        spec: &RunSpec,
+        training_state: &TrainingState,
+        state: RunState,
+        weights: Option<&[u8]>,
+    ) -> Self {
+        let exit_code = match state {
+            RunState::Running => None,
+            RunState::Finished => Some(0),
+            RunState::Interrupted => Some(130),
+            RunState::Failed => Some(FAILED),
+        };
+        Self {
+            state,
+            reason: None,
+            exit_code,
+            network: spec.network.clone(),
+            parameters: spec.parameters,
+            seed: spec.seed,
+            steps: training_state.step,
+            steps_planned: spec.schedule.steps,
+            best: training_state.best.clone(),
+            loss: training_state.loss,
+            hours: hours(training_state.seconds),
+            hours_waited: hours(training_state.waited),
+            weights_sha256: weights.map(sha256),
+            recipe_sha256: sha256(spec.recipe.as_bytes()),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+
+    /// The same run ended by an error.
+    pub(crate) fn failed(mut self, error: &impl Failure) -> Self {
+        self.state = RunState::Failed;
+        self.reason = Some(error.to_string());
+        self.exit_code = Some(exit_code(error));
+        self
+    }
+
+    /// Whether nothing is left to do of so many steps.
+    pub(crate) fn is_end_of(&self, steps: usize) -> bool {
+        self.state == RunState::Finished && self.steps >= steps
+    }
+
+    pub(crate) fn to_json(&self) -> String {
+        let json = serde_json::to_string_pretty(self);
+        // Numbers and text always become JSON.
+        json.unwrap_or_default() + "\n"
+    }
+}
+
+/// Seconds as hours; more digits than these would only be noise.
+fn hours(seconds: f64) -> f64 {
+    (seconds / 3600.0 * 1e6).round() / 1e6
+}

@@ -1,0 +1,27 @@
+//! Architecture search: a relaxed network, its bi-level optimisation, and what is derived from it.
+#![deny(missing_docs)]
+
+mod bilevel;
+mod budget;
+mod card;
+mod compare;
+mod derive;
+mod drawing;
+mod history;
+mod learner;
+mod random;
+mod recipe;
+mod run;
+mod samples;
+mod speed;
+mod task;
+
+pub use budget::{Budget, Measure, OperationTime, OperationTimes, placements};
+pub use compare::{
+    CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal, Group, SeedResult, compare,
+};
+pub use random::random_genotypes;
+pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};
+pub use run::{SearchRun, derive_again, search};
+pub use speed::SearchStep;
+use task::SearchTask;
