@@ -42,7 +42,7 @@ fn run_network(args: &SearchArgs, network: Network) -> Result<Outcome> {
 fn find(args: &SearchArgs, recipe: SearchRecipe) -> Result<Outcome> {
     let device = device::open(args.device)?.device;
     if !args.quiet {
-        let network = recipe.training.network.name();
+        let network = recipe.training.network.kind().name();
         note(&format!("search for cells of the {network} network"));
     }
     let (steps, batch) = (recipe.training.steps, recipe.training.batch);

@@ -44,7 +44,7 @@ pub(crate) fn read(name: &str, network: Network) -> Result<SearchRecipe> {
         }
         recipe => recipe.with_context(|| name.to_owned())?,
     };
-    if recipe.training.network != network {
+    if recipe.training.network.kind() != network {
         bail!(
             "{name}: this recipe does not search the {} network",
             network.name()

@@ -56,7 +56,7 @@ fn recipe(args: &TrainArgs) -> Result<TrainRecipe> {
         }
         recipe => recipe.with_context(|| path.display().to_string())?,
     };
-    if recipe.network != args.network.into() {
+    if recipe.network.kind() != args.network.into() {
         bail!(
             "{}: this recipe does not train the {} network",
             path.display(),

@@ -1,12 +1,9 @@
 use super::SearchRecipe;
 use burn::tensor::Tensor;
-use normalight_model::{
-    Cell, CellSite, LightBody, NormalBody, Operation, Relaxation, SearchSpace, light_cell_sites,
-    normal_cell_sites, operation_cost,
-};
+use normalight_model::{Cell, CellSite, Operation, Relaxation, SearchSpace, operation_cost};
 use normalight_run::RunError;
 use normalight_run::check;
-use normalight_train::{Network, TrainError, TrainRecipe};
+use normalight_train::{TrainError, TrainRecipe};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -119,21 +116,6 @@ impl OperationTimes {
     }
 }
 
-/// Where the cells of a recipe's network stand, at the recipe's size.
-pub fn placements(recipe: &TrainRecipe) -> Vec<CellSite> {
-    let area = recipe.size * recipe.size;
-    match recipe.network {
-        Network::Light => match &recipe.light.architecture.body {
-            LightBody::Cells(cells) => light_cell_sites(cells, area).concat(),
-            LightBody::Plain(_) => Vec::new(),
-        },
-        Network::Normal => match &recipe.normal.architecture.body {
-            NormalBody::Cells(cells) => normal_cell_sites(cells, area).concat(),
-            NormalBody::Plain(_) => Vec::new(),
-        },
-    }
-}
-
 /// A budget and what everything costs by its measure.
 pub(super) struct Costs {
     budget: Budget,
@@ -199,7 +181,7 @@ fn edge_costs(
         .as_deref()
         .map(OperationTimes::read)
         .transpose()?;
-    let places = placements(recipe);
+    let places = recipe.network.cell_sites(recipe.size);
     let cells = 1 + places.iter().map(|place| place.cell).max().unwrap_or(0);
     let mut costs = vec![vec![vec![0.0; space.operations.len()]; space.edges().count()]; cells];
     for place in &places {

@@ -8,7 +8,7 @@ pub(super) fn card(recipe: &SearchRecipe, summary: &Summary, command: &str) -> S
     let (training, search) = (&recipe.training, &recipe.search);
     let mut card = format!(
         "# Cells of the {} network\n\nFound by search; `genotype.json` holds them.\n\n| | |\n| --- | --- |\n",
-        training.network.name()
+        training.network.kind().name()
     );
     let operations: Vec<_> = search.operations.iter().map(|one| one.name()).collect();
     let mut cures = Vec::new();

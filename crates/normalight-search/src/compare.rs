@@ -10,11 +10,10 @@ pub use report::{Comparison, EntryKind, EntryResult, Group, SeedResult};
 use burn::tensor::Device;
 use entries::{Body, Entry, read_entries};
 use folder::{Folder, common_text};
-use normalight_model::{LightBody, NormalBody};
 use normalight_run::{RunError, RunEvent, RunState, check, sha256};
 use normalight_train::{
-    LightTask, Network, NormalTask, Predictor, SampleMaker, Source, Task, TrainError, TrainRecipe,
-    TrainRun, train,
+    LightTask, NetworkRecipe, NormalTask, Predictor, SampleMaker, Source, Task, TrainError,
+    TrainRecipe, TrainRun, train,
 };
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -87,9 +86,15 @@ pub fn compare(
     device: &Device,
     mut observe: impl FnMut(CompareEvent) -> ControlFlow<()>,
 ) -> Result<Comparison, TrainError> {
-    match run.recipe.network {
-        Network::Light => ComparisonRunner::<LightTask>::prepare(run, device)?.run(&mut observe),
-        Network::Normal => ComparisonRunner::<NormalTask>::prepare(run, device)?.run(&mut observe),
+    match &run.recipe.network {
+        NetworkRecipe::Light(settings) => {
+            let runner = ComparisonRunner::prepare(LightTask::new(settings), run, device)?;
+            runner.run(&mut observe)
+        }
+        NetworkRecipe::Normal(settings) => {
+            let runner = ComparisonRunner::prepare(NormalTask::new(settings), run, device)?;
+            runner.run(&mut observe)
+        }
     }
 }
 
@@ -108,10 +113,10 @@ struct ComparisonRunner<'a, T> {
 }
 
 impl<'a, T: Task> ComparisonRunner<'a, T> {
-    fn prepare(run: &'a CompareRun, device: &'a Device) -> Result<Self, TrainError> {
+    fn prepare(task: T, run: &'a CompareRun, device: &'a Device) -> Result<Self, TrainError> {
         let recipe = &run.recipe;
         check_schedule(recipe)?;
-        let mut entries = read_entries(&run.paths, recipe.network)?;
+        let mut entries = read_entries(&run.paths, recipe.network.kind())?;
         if run.plain {
             entries.push(Entry::plain());
         }
@@ -141,7 +146,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
             run,
             device,
             common: common_text(recipe, run.equal, multiply_adds)?,
-            maker: SampleMaker::new(recipe, &source, predictor),
+            maker: SampleMaker::new(task, recipe, &source, predictor),
             entries,
             recipes,
             seeds,
@@ -228,7 +233,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
         let entries = self.entries.iter().zip(&self.recipes);
         Comparison {
             state: RunState::Running,
-            network: self.run.recipe.network,
+            network: self.run.recipe.network.kind(),
             equal: self.run.equal,
             multiply_adds: self.multiply_adds,
             recipe_sha256: sha256(self.common.as_bytes()),
@@ -254,10 +259,6 @@ fn with_seed(recipe: &TrainRecipe, seed: u64) -> TrainRecipe {
 /// A schedule must be one of cells, from random weights.
 fn check_schedule(recipe: &TrainRecipe) -> Result<(), TrainError> {
     recipe.validate()?;
-    let cells = match recipe.network {
-        Network::Light => matches!(recipe.light.architecture.body, LightBody::Cells(_)),
-        Network::Normal => matches!(recipe.normal.architecture.body, NormalBody::Cells(_)),
-    };
     let refused = |field, found: &str, expected| {
         Err(TrainError::Run(RunError::Value {
             field,
@@ -265,7 +266,7 @@ fn check_schedule(recipe: &TrainRecipe) -> Result<(), TrainError> {
             expected,
         }))
     };
-    if !cells {
+    if !recipe.network.has_cells() {
         let expected = "cells; those that are compared take their place";
         return refused("kind of the architecture's body", "plain", expected);
     }

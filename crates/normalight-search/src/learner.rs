@@ -24,6 +24,7 @@ const ALPHA: &str = "alpha";
 
 /// A relaxed network: its weights learn on one half of the data, its architecture on the other, in turns.
 pub(super) struct SearchLearner<'a, T: SearchTask> {
+    task: T,
     recipe: &'a SearchRecipe,
     space: SearchSpace,
     /// For validation.
@@ -44,14 +45,19 @@ pub(super) struct SearchLearner<'a, T: SearchTask> {
 
 impl<'a, T: SearchTask> SearchLearner<'a, T> {
     /// A relaxed network with random weights of the recipe's seed. `device`: a plain one.
-    pub(super) fn new(recipe: &'a SearchRecipe, device: &'a Device) -> Result<Self, TrainError> {
+    pub(super) fn new(
+        task: T,
+        recipe: &'a SearchRecipe,
+        device: &'a Device,
+    ) -> Result<Self, TrainError> {
         let training = device.clone().autodiff();
         let space = recipe.search.space();
         let costs = Costs::of(recipe)?;
         let network = seeded(&training, recipe.training.seed, || {
-            T::relaxed(&recipe.training, &space, &training)
+            task.relaxed(&space, &training)
         })?;
         Ok(Self {
+            task,
             recipe,
             space,
             device,
@@ -64,6 +70,11 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
             history: History::default(),
             objects: Vec::new(),
         })
+    }
+
+    /// What it searches for.
+    pub(super) fn task(&self) -> &T {
+        &self.task
     }
 
     /// What to validate on.
@@ -83,7 +94,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
     }
 
     fn loss(&self, network: &T::Network, batch: &Batch) -> Tensor<1> {
-        T::loss(&self.recipe.training, network, batch, &self.training)
+        self.task.loss(network, batch, &self.training)
     }
 
     /// Loss of the architecture and its gradient.
@@ -147,7 +158,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
         let training = &self.recipe.training;
         let source = format!(
             "search of the {} network, {} steps, seed {}",
-            training.network.name(),
+            training.network.kind().name(),
             training.steps,
             training.seed
         );
@@ -216,8 +227,7 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
 
     fn validate(&mut self, step: usize) -> Result<Validation, TrainError> {
         let network = self.network.valid();
-        let training = &self.recipe.training;
-        let mut validation = T::validate(training, &network, &self.objects, self.device)?;
+        let mut validation = self.task.validate(&network, &self.objects, self.device)?;
         self.figures(&mut validation);
         self.history.add(step, self.weights());
         Ok(validation)
@@ -232,7 +242,7 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
     fn drawings(&self) -> Vec<(String, Vec<u8>)> {
         let csv = self.history.to_csv(&self.space, T::CELLS);
         let mut files = vec![("alpha.csv".to_owned(), csv.into_bytes())];
-        let network = self.recipe.training.network.name();
+        let network = self.recipe.training.network.kind().name();
         for (index, (name, cell)) in T::CELLS.iter().zip(self.cells()).enumerate() {
             let title = format!("{network} network, {} cell", name.replace('_', " "));
             files.push((format!("cell-{name}.svg"), cell_svg(&title, &cell)));

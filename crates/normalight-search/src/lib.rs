@@ -16,7 +16,7 @@ mod samples;
 mod speed;
 mod task;
 
-pub use budget::{Budget, Measure, OperationTime, OperationTimes, placements};
+pub use budget::{Budget, Measure, OperationTime, OperationTimes};
 pub use compare::{
     CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal, Group, SeedResult, compare,
 };

@@ -17,7 +17,7 @@ const MOST_DRAWS: usize = 100_000;
 /// Those of the recipe; [`RunError::Value`] when the budget admits nearly none.
 pub fn random_genotypes(recipe: &SearchRecipe, count: usize) -> Result<Vec<Genotypes>, TrainError> {
     recipe.validate()?;
-    match recipe.training.network {
+    match recipe.training.network.kind() {
         Network::Light => draw::<LightTask>(recipe, count),
         Network::Normal => draw::<NormalTask>(recipe, count),
     }

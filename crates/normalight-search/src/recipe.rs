@@ -1,7 +1,7 @@
 use super::Budget;
-use normalight_model::{LightBody, NormalBody, Operation, SearchSpace};
+use normalight_model::{Operation, SearchSpace};
 use normalight_run::{Decay, OptimiserRecipe, RunError, Schedule, check};
-use normalight_train::{Network, TrainError, TrainRecipe, read_table, take_out};
+use normalight_train::{TrainError, TrainRecipe, read_table, take_out};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -229,16 +229,6 @@ impl SearchRecipe {
         let training = &self.training;
         training.validate()?;
         self.search.validate(training.steps)?;
-        let width = match training.network {
-            Network::Light => match &training.light.architecture.body {
-                LightBody::Cells(cells) => Some(cells.width),
-                LightBody::Plain(_) => None,
-            },
-            Network::Normal => match &training.normal.architecture.body {
-                NormalBody::Cells(cells) => Some(cells.width),
-                NormalBody::Plain(_) => None,
-            },
-        };
         let refused = |field, found: &str, expected| {
             Err(TrainError::Run(RunError::Value {
                 field,
@@ -246,16 +236,14 @@ impl SearchRecipe {
                 expected,
             }))
         };
-        match width {
-            None => {
-                let field = "kind of the architecture's body";
-                return refused(field, "plain", "cells, to search them");
-            }
-            Some(width) if !width.is_multiple_of(self.search.channel_divisor) => {
-                let expected = "a multiple of search.channel_divisor";
-                return refused("width", &width.to_string(), expected);
-            }
-            Some(_) => {}
+        if !training.network.has_cells() {
+            let field = "kind of the architecture's body";
+            return refused(field, "plain", "cells, to search them");
+        }
+        let width = training.network.width();
+        if !width.is_multiple_of(self.search.channel_divisor) {
+            let expected = "a multiple of search.channel_divisor";
+            return refused("width", &width.to_string(), expected);
         }
         if training.cache.is_some() {
             let expected = "none: both halves of a search would show the same shapes";

@@ -6,9 +6,7 @@ use super::{SearchRecipe, SearchTask};
 use burn::tensor::Device;
 use normalight_run::RunError;
 use normalight_run::{Learner, LoopSchedule, RunEvent, RunSpec, Session, Summary, load, run_job};
-use normalight_train::{
-    FREE, LightTask, Network, NormalTask, TrainError, threads, validation_pixels,
-};
+use normalight_train::{FREE, LightTask, NetworkRecipe, NormalTask, TrainError, threads};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -40,9 +38,13 @@ pub fn search(
     mut observe: impl FnMut(RunEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
     run.recipe.validate()?;
-    match run.recipe.training.network {
-        Network::Light => search_network::<LightTask>(run, device, &mut observe),
-        Network::Normal => search_network::<NormalTask>(run, device, &mut observe),
+    match &run.recipe.training.network {
+        NetworkRecipe::Light(settings) => {
+            search_network(LightTask::new(settings), run, device, &mut observe)
+        }
+        NetworkRecipe::Normal(settings) => {
+            search_network(NormalTask::new(settings), run, device, &mut observe)
+        }
     }
 }
 
@@ -59,18 +61,23 @@ pub fn derive_again(
     let mut recipe = SearchRecipe::read(&folder.join("recipe.toml"))?;
     recipe.search.most_skips = most_skips;
     recipe.validate()?;
-    match recipe.training.network {
-        Network::Light => derived::<LightTask>(&recipe, folder, device),
-        Network::Normal => derived::<NormalTask>(&recipe, folder, device),
+    match &recipe.training.network {
+        NetworkRecipe::Light(settings) => {
+            derived(LightTask::new(settings), &recipe, folder, device)
+        }
+        NetworkRecipe::Normal(settings) => {
+            derived(NormalTask::new(settings), &recipe, folder, device)
+        }
     }
 }
 
 fn derived<T: SearchTask>(
+    task: T,
     recipe: &SearchRecipe,
     folder: &Path,
     device: &Device,
 ) -> Result<Vec<(String, Vec<u8>)>, TrainError> {
-    let mut learner = SearchLearner::<T>::new(recipe, device)?;
+    let mut learner = SearchLearner::new(task, recipe, device)?;
     let loaded = load(folder)?;
     learner
         .restore(loaded.tensors, loaded.training_state.step)
@@ -87,19 +94,20 @@ fn derived<T: SearchTask>(
 }
 
 fn search_network<T: SearchTask>(
+    task: T,
     run: &SearchRun,
     device: &Device,
     observe: &mut impl FnMut(RunEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
     let recipe = &run.recipe;
-    let mut learner = SearchLearner::<T>::new(recipe, device)?;
+    let mut learner = SearchLearner::new(task, recipe, device)?;
     let training = &recipe.training;
     let spec = RunSpec {
         folder: run.folder.clone(),
         resume: run.resume,
         recipe: recipe.to_toml()?,
         free: &FREE,
-        network: training.network.name().to_owned(),
+        network: training.network.kind().name().to_owned(),
         parameters: learner.parameters(),
         seed: training.seed,
         schedule: LoopSchedule {
@@ -126,14 +134,14 @@ fn go<T: SearchTask, O: FnMut(RunEvent) -> ControlFlow<()>>(
 ) -> Result<ControlFlow<()>, TrainError> {
     let training = &recipe.training;
     // Before anything is written: a file that the recipe names may be missing.
-    let (maker, second) = HalvesMaker::<T>::open(training, device)?;
+    let (maker, second) = HalvesMaker::open(learner.task(), training, device)?;
     session.begin(learner, |_| {
         Ok(format!(
             "started with random weights of seed {}",
             training.seed
         ))
     })?;
-    let pixels = validation_pixels(training);
+    let pixels = training.network.validation_pixels(training.size);
     learner.validate_on(second.validation_objects(training, pixels)?);
     session.go(learner, &maker, threads(training))
 }

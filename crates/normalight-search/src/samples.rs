@@ -20,6 +20,7 @@ pub(super) struct HalvesMaker<T> {
 impl<T: Task> HalvesMaker<T> {
     /// Opens what the recipe names; also gives the source of the second half.
     pub(super) fn open(
+        task: &T,
         recipe: &TrainRecipe,
         device: &Device,
     ) -> Result<(Self, Arc<Source>), TrainError> {
@@ -27,7 +28,7 @@ impl<T: Task> HalvesMaker<T> {
         let predictor = Predictor::of(recipe, device)?;
         let [training, validation] = halves
             .each_ref()
-            .map(|half| SampleMaker::new(recipe, half, predictor.clone()));
+            .map(|half| SampleMaker::new(task.clone(), recipe, half, predictor.clone()));
         let [_, second] = halves;
         let maker = Self {
             training,

@@ -4,7 +4,7 @@ use super::samples::{HalvesMaker, SplitBatch};
 use super::{SearchRecipe, SearchTask};
 use burn::tensor::Device;
 use normalight_run::{BatchMaker, Learner};
-use normalight_train::{LightTask, Network, NormalTask, TrainError};
+use normalight_train::{LightTask, NetworkRecipe, NormalTask, TrainError};
 use std::time::{Duration, Instant};
 
 /// A search that takes steps on batches made beforehand.
@@ -21,15 +21,19 @@ impl<'a> SearchStep<'a> {
     /// What is wrong with the recipe or its files.
     pub fn new(recipe: &'a SearchRecipe, device: &'a Device) -> Result<Self, TrainError> {
         recipe.validate()?;
-        match recipe.training.network {
-            Network::Light => Self::of::<LightTask>(recipe, device),
-            Network::Normal => Self::of::<NormalTask>(recipe, device),
+        match &recipe.training.network {
+            NetworkRecipe::Light(settings) => Self::of(LightTask::new(settings), recipe, device),
+            NetworkRecipe::Normal(settings) => Self::of(NormalTask::new(settings), recipe, device),
         }
     }
 
-    fn of<T: SearchTask>(recipe: &'a SearchRecipe, device: &'a Device) -> Result<Self, TrainError> {
-        let mut learner = SearchLearner::<T>::new(recipe, device)?;
-        let (mut maker, _) = HalvesMaker::<T>::open(&recipe.training, device)?;
+    fn of<T: SearchTask>(
+        task: T,
+        recipe: &'a SearchRecipe,
+        device: &'a Device,
+    ) -> Result<Self, TrainError> {
+        let mut learner = SearchLearner::new(task.clone(), recipe, device)?;
+        let (mut maker, _) = HalvesMaker::open(&task, &recipe.training, device)?;
         let start = Instant::now();
         let batches: Vec<SplitBatch> = (0..maker.together())
             .map(|step| maker.make(step))

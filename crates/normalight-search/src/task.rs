@@ -3,7 +3,7 @@ use normalight_model::{
     Cell, Genotypes, LightGenotype, LightNetwork, NormalGenotype, NormalNetwork, Relaxation,
     SearchSpace,
 };
-use normalight_train::{LightTask, NormalTask, NormalTraining, Task, TrainError, TrainRecipe};
+use normalight_train::{LightTask, NormalTask, NormalTraining, Task, TrainError};
 
 /// What is particular to the search of one of the networks.
 pub(super) trait SearchTask: Task {
@@ -11,11 +11,7 @@ pub(super) trait SearchTask: Task {
     const CELLS: &'static [&'static str];
 
     /// The relaxed network with random weights.
-    fn relaxed(
-        recipe: &TrainRecipe,
-        space: &SearchSpace,
-        device: &Device,
-    ) -> Result<Self::Network, TrainError>;
+    fn relaxed(&self, space: &SearchSpace, device: &Device) -> Result<Self::Network, TrainError>;
 
     /// The architecture's parameters.
     fn relaxation(network: &Self::Network) -> &Relaxation;
@@ -35,13 +31,9 @@ const AS_MANY: &str = "as many cells as names";
 impl SearchTask for LightTask {
     const CELLS: &'static [&'static str] = &LightGenotype::CELLS;
 
-    fn relaxed(
-        recipe: &TrainRecipe,
-        space: &SearchSpace,
-        device: &Device,
-    ) -> Result<LightNetwork, TrainError> {
+    fn relaxed(&self, space: &SearchSpace, device: &Device) -> Result<LightNetwork, TrainError> {
         Ok(LightNetwork::relaxed(
-            &recipe.light.architecture,
+            &self.settings().architecture,
             space,
             device,
         )?)
@@ -68,13 +60,9 @@ impl SearchTask for LightTask {
 impl SearchTask for NormalTask {
     const CELLS: &'static [&'static str] = &NormalGenotype::CELLS;
 
-    fn relaxed(
-        recipe: &TrainRecipe,
-        space: &SearchSpace,
-        device: &Device,
-    ) -> Result<NormalTraining, TrainError> {
-        let network = NormalNetwork::relaxed(&recipe.normal.architecture, space, device)?;
-        Ok(NormalTraining::new(network, recipe, device))
+    fn relaxed(&self, space: &SearchSpace, device: &Device) -> Result<NormalTraining, TrainError> {
+        let network = NormalNetwork::relaxed(&self.settings().architecture, space, device)?;
+        Ok(NormalTraining::new(network, self.settings(), device))
     }
 
     fn relaxation(training: &NormalTraining) -> &Relaxation {

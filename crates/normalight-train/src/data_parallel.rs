@@ -6,7 +6,6 @@
 //! the gradients among themselves; it knows CUDA only, so no test of ours could run it, and our
 //! networks are small enough to travel at every step.
 
-use crate::TrainRecipe;
 use crate::batch::Batch;
 use crate::task::Task;
 use burn::module::{Module, ModuleVisitor, Param};
@@ -22,7 +21,7 @@ use std::thread::JoinHandle;
 /// Batch normalisation sees a part of the batch at a time, and the statistics that stay are those of
 /// the main device's parts.
 pub(crate) struct Replicas<T: Task> {
-    recipe: TrainRecipe,
+    task: T,
     main: Device,
     workers: Vec<Worker<T::Network>>,
 }
@@ -50,10 +49,10 @@ struct PartResult {
 impl<T: Task> Replicas<T> {
     /// Starts a thread for each of `others`. The network lives on `main`, which the calling thread
     /// keeps busy. Gradients must be switched on on every device.
-    pub(crate) fn new(recipe: &TrainRecipe, main: &Device, others: &[Device]) -> Self {
-        let start = |device: &Device| start::<T>(recipe.clone(), main.clone(), device.clone());
+    pub(crate) fn new(task: &T, main: &Device, others: &[Device]) -> Self {
+        let start = |device: &Device| start(task.clone(), main.clone(), device.clone());
         Self {
-            recipe: recipe.clone(),
+            task: task.clone(),
             main: main.clone(),
             workers: others.iter().map(start).collect(),
         }
@@ -81,7 +80,7 @@ impl<T: Task> Replicas<T> {
                 share,
             });
         }
-        let loss = T::loss(&self.recipe, network, &own, &self.main) * share;
+        let loss = self.task.loss(network, &own, &self.main) * share;
         let mut gradients = loss.backward();
         let mut loss = scalar(loss);
         for index in 0..busy {
@@ -99,13 +98,13 @@ impl<T: Task> Replicas<T> {
 }
 
 /// Computes on a device until nobody has jobs for it any more.
-fn start<T: Task>(recipe: TrainRecipe, main: Device, device: Device) -> Worker<T::Network> {
+fn start<T: Task>(task: T, main: Device, device: Device) -> Worker<T::Network> {
     let (jobs, todo) = channel::<ReplicaJob<T::Network>>();
     let (done, results) = channel();
     let thread = std::thread::spawn(move || {
         for spec in todo {
             let replica = spec.network.fork(&device).train();
-            let loss = T::loss(&recipe, &replica, &spec.part, &device) * spec.share;
+            let loss = task.loss(&replica, &spec.part, &device) * spec.share;
             let gradients = GradientsParams::from_grads(loss.backward(), &replica);
             let result = PartResult {
                 loss: scalar(loss),
@@ -190,6 +189,7 @@ mod tests {
     use crate::normal_task::NormalTask;
     use crate::samples::SampleMaker;
     use crate::source::Source;
+    use crate::{NormalSettings, TrainRecipe};
     use normalight_model::{CellNormal, Genotypes, NormalBody, Upsampling};
     use normalight_run::host;
     use normalight_run::{BatchMaker, HostGradients, Optimiser};
@@ -212,9 +212,9 @@ mod tests {
         TrainRecipe::parse("recipe.toml", &text).unwrap()
     }
 
-    fn batches<T: Task>(recipe: &TrainRecipe) -> Vec<Batch> {
+    fn batches<T: Task>(task: &T, recipe: &TrainRecipe) -> Vec<Batch> {
         let source = Arc::new(Source::open(recipe, T::FRAMING).unwrap());
-        let mut maker = SampleMaker::<T>::new(recipe, &source, None);
+        let mut maker = SampleMaker::new(task.clone(), recipe, &source, None);
         (0..recipe.steps)
             .map(|step| maker.make(step).unwrap())
             .collect()
@@ -249,14 +249,15 @@ mod tests {
 
     /// Three steps on one device and on several.
     fn compare<T: Task>(recipe: &TrainRecipe, main: &Device, others: &[Device]) {
-        let mut replicas = Replicas::<T>::new(recipe, main, others);
-        let mut alone = T::network(recipe, main).unwrap();
+        let task = &T::of(&recipe.network).unwrap();
+        let mut replicas = Replicas::new(task, main, others);
+        let mut alone = task.network(main).unwrap();
         // Weights are drawn when first wanted; a clone made before would draw its own.
         let start = values(&alone, None).concat();
         let mut together = alone.clone();
         let mut optimisers = [Optimiser::default(), Optimiser::default()];
-        for batch in &batches::<T>(recipe) {
-            let loss = T::loss(recipe, &alone, batch, main);
+        for batch in &batches(task, recipe) {
+            let loss = task.loss(&alone, batch, main);
             let gradients = loss.backward();
             let loss = scalar(loss);
             let (summed_loss, summed) = replicas.gradients(&together, batch);
@@ -297,13 +298,14 @@ mod tests {
     fn different_and_idle_devices_and_parts_without_an_object_do_no_harm() {
         let [main, other] = devices();
         let recipe = recipe("normal", 16);
-        let mut batch = batches::<NormalTask>(&recipe).swap_remove(0);
+        let task = NormalTask::of(&recipe.network).unwrap();
+        let mut batch = batches(&task, &recipe).swap_remove(0);
         // The first sample becomes a crop beside the object: no truth, no mask.
         batch.target[..4 * 16 * 16].fill(0.0);
-        let network = NormalTask::network(&recipe, &main).unwrap();
-        let loss = NormalTask::loss(&recipe, &network, &batch, &main);
+        let network = task.network(&main).unwrap();
+        let loss = task.loss(&network, &batch, &main);
         let gradients = loss.backward();
-        let mut replicas = Replicas::<NormalTask>::new(&recipe, &main, &vec![other; 6]);
+        let mut replicas = Replicas::new(&task, &main, &vec![other; 6]);
         let (summed_loss, summed) = replicas.gradients(&network, &batch);
         assert!((summed_loss - scalar(loss)).abs() < 1e-5);
         let expected = values(&network, Some(&gradients)).concat();
@@ -314,13 +316,14 @@ mod tests {
     #[test]
     fn running_statistics_are_those_of_the_main_device() {
         let [main, other] = devices();
-        let mut recipe = recipe("normal", 16);
+        let recipe = recipe("normal", 16);
+        let mut settings = NormalSettings::default();
         let paper = Genotypes::from_json(
             "paper",
             include_str!("../../../models/genotypes/paper.json"),
         )
         .unwrap();
-        recipe.normal.architecture.body = NormalBody::Cells(CellNormal {
+        settings.architecture.body = NormalBody::Cells(CellNormal {
             width: 2,
             stem_strides: [1, 2],
             reductions: 2,
@@ -328,13 +331,14 @@ mod tests {
             fused_convolutions: 1,
             genotype: paper.normal.unwrap(),
         });
-        let network = NormalTask::network(&recipe, &main).unwrap();
+        let task = NormalTask::new(&settings);
+        let network = task.network(&main).unwrap();
         let start = values(&network, None);
         let main_only = network.valid().train();
-        let mut replicas = Replicas::<NormalTask>::new(&recipe, &main, &[other]);
-        for batch in &batches::<NormalTask>(&recipe) {
+        let mut replicas = Replicas::new(&task, &main, &[other]);
+        for batch in &batches(&task, &recipe) {
             replicas.gradients(&network, batch);
-            NormalTask::loss(&recipe, &main_only, &divided(batch, 2)[0], &main);
+            task.loss(&main_only, &divided(batch, 2)[0], &main);
         }
         let statistics = values(&network.valid(), None);
         assert!(statistics == values(&main_only.valid(), None) && statistics != start);
@@ -345,13 +349,14 @@ mod tests {
     fn a_panic_on_another_device_is_not_lost() {
         let [main, _] = devices();
         let recipe = recipe("normal", 16);
-        let network = NormalTask::network(&recipe, &main).unwrap();
-        let mut replicas = Replicas::<NormalTask>::new(&recipe, &main, &[]);
+        let task = NormalTask::of(&recipe.network).unwrap();
+        let network = task.network(&main).unwrap();
+        let mut replicas = Replicas::new(&task, &main, &[]);
         replicas.workers.push(Worker {
             jobs: channel().0,
             results: channel().1,
             thread: std::thread::spawn(|| panic!("no memory left")),
         });
-        replicas.gradients(&network, &batches::<NormalTask>(&recipe)[0]);
+        replicas.gradients(&network, &batches(&task, &recipe)[0]);
     }
 }

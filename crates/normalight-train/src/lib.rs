@@ -30,10 +30,10 @@ pub use network_learner::NetworkLearner;
 pub use normal_task::{NormalTask, NormalTraining};
 pub use predicted::Predictor;
 pub use recipe::{
-    CacheRecipe, LightMix, LightSettings, Network, NormalSettings, PublishedChoice,
+    CacheRecipe, LightMix, LightSettings, Network, NetworkRecipe, NormalSettings, PublishedChoice,
     PublishedRecipe, TrainRecipe, read_table, take_out,
 };
-pub use run::{Devices, FREE, TrainRun, threads, train, validation_pixels};
+pub use run::{Devices, FREE, TrainRun, threads, train};
 pub use samples::{SampleMaker, first_scene};
 pub use source::Source;
 pub use speed::{OptimiserStep, SampleSource};

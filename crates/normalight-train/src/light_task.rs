@@ -1,7 +1,7 @@
 use crate::batch::Batch;
 use crate::init::{check_start, init_error};
 use crate::task::Task;
-use crate::{TrainError, TrainRecipe};
+use crate::{LightSettings, NetworkRecipe, TrainError};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
@@ -18,41 +18,59 @@ use std::f32::consts::PI;
 ///
 /// Target: `[samples * images, classes + 4]`: soft labels of the three heads side by side, the
 /// true direction, the logarithm of the intensity relative to the sample's mean.
-pub struct LightTask;
+#[derive(Debug, Clone)]
+pub struct LightTask {
+    settings: LightSettings,
+}
+
+impl LightTask {
+    /// With these settings.
+    pub fn new(settings: &LightSettings) -> Self {
+        Self {
+            settings: settings.clone(),
+        }
+    }
+
+    /// Its settings.
+    pub fn settings(&self) -> &LightSettings {
+        &self.settings
+    }
+}
 
 impl Task for LightTask {
     type Network = LightNetwork;
     const FRAMING: Framing = Framing::WholeObject;
 
-    fn network(recipe: &TrainRecipe, device: &Device) -> Result<LightNetwork, TrainError> {
+    fn of(network: &NetworkRecipe) -> Option<Self> {
+        match network {
+            NetworkRecipe::Light(settings) => Some(Self::new(settings)),
+            _ => None,
+        }
+    }
+
+    fn network(&self, device: &Device) -> Result<LightNetwork, TrainError> {
         Ok(LightNetwork::new(
-            &recipe.light.architecture,
+            &self.settings.architecture,
             false,
             device,
         )?)
     }
 
     fn start_from(
-        recipe: &TrainRecipe,
+        &self,
         network: LightNetwork,
         weights: &Weights,
         device: &Device,
     ) -> Result<LightNetwork, TrainError> {
         let stored = weights.light_network(device)?;
         let plain = matches!(stored.architecture.body, LightBody::Plain(_));
-        let same = stored.architecture == recipe.light.architecture;
+        let same = stored.architecture == self.settings.architecture;
         check_start(weights, plain, same)?;
         let filled = fill(network, &mut collect(&stored.network));
         filled.map_err(|reason| init_error(weights, reason))
     }
 
-    fn append(
-        recipe: &TrainRecipe,
-        sample: &Sample,
-        _predicted: Option<&[Light]>,
-        _seed: u64,
-        batch: &mut Batch,
-    ) {
+    fn append(&self, sample: &Sample, _predicted: Option<&[Light]>, _seed: u64, batch: &mut Batch) {
         let area = sample.size * sample.size;
         let inside = sample.mask.iter().filter(|&&inside| inside).count();
         // Outside the object samples are black.
@@ -66,13 +84,13 @@ impl Task for LightTask {
         for (planes, out) in sample.images.chunks_exact(3 * area).zip(outs) {
             input.encode(planes, &sample.mask, out);
         }
-        let bins = &recipe.light.architecture.bins;
+        let bins = &self.settings.architecture.bins;
         let brightness = sample.lights.iter().map(Light::mean_intensity);
         let mean = brightness.sum::<f32>() / sample.lights.len() as f32;
         for light in &sample.lights {
             let relative = Light::new(light.direction, light.mean_intensity() / mean);
             let positions = bins.positions(&relative);
-            let deviation = recipe.light.label_deviation;
+            let deviation = self.settings.label_deviation;
             for (position, count) in positions.into_iter().zip(heads(bins)) {
                 batch.target.extend(soft_label(position, count, deviation));
             }
@@ -81,17 +99,12 @@ impl Task for LightTask {
         }
     }
 
-    fn channels(_recipe: &TrainRecipe) -> usize {
+    fn channels(&self) -> usize {
         LightInput::CHANNELS
     }
 
-    fn loss(
-        recipe: &TrainRecipe,
-        network: &LightNetwork,
-        batch: &Batch,
-        device: &Device,
-    ) -> Tensor<1> {
-        let settings = &recipe.light;
+    fn loss(&self, network: &LightNetwork, batch: &Batch, device: &Device) -> Tensor<1> {
+        let settings = &self.settings;
         let bins = &settings.architecture.bins;
         let own = network.features(batch.input(device));
         let fused = repeat_per_image(max_over_images(own.clone(), batch.samples), batch.images);
@@ -145,14 +158,14 @@ impl Task for LightTask {
     }
 
     fn validate(
-        recipe: &TrainRecipe,
+        &self,
         network: &LightNetwork,
         objects: &[Sample],
         device: &Device,
     ) -> Result<Validation, TrainError> {
         let (mut sum, mut intensity) = (0.0, 0.0);
         let loaded = LoadedNetwork {
-            architecture: recipe.light.architecture.clone(),
+            architecture: self.settings.architecture.clone(),
             network: network.clone(),
             device: device.clone(),
         };
@@ -174,8 +187,8 @@ impl Task for LightTask {
         })
     }
 
-    fn bytes(recipe: &TrainRecipe, network: &LightNetwork) -> Result<Vec<u8>, TrainError> {
-        let architecture = &recipe.light.architecture;
+    fn bytes(&self, network: &LightNetwork) -> Result<Vec<u8>, TrainError> {
+        let architecture = &self.settings.architecture;
         Ok(Weights::light_bytes(
             architecture,
             network,

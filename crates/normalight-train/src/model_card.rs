@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 /// The card of a finished run. `command`: what started it.
 pub fn model_card(recipe: &TrainRecipe, summary: &Summary, command: &str) -> String {
-    let (title, what) = match recipe.network {
+    let (title, what) = match recipe.network.kind() {
         Network::Light => ("Light calibration network", "light directions"),
         Network::Normal => ("Normal estimation network", "normals"),
     };

@@ -22,6 +22,7 @@ const AVERAGE: &str = "average";
 
 /// A network in training.
 pub struct NetworkLearner<'a, T: Task> {
+    task: T,
     recipe: &'a TrainRecipe,
     /// For validation.
     device: &'a Device,
@@ -38,20 +39,25 @@ pub struct NetworkLearner<'a, T: Task> {
 
 impl<'a, T: Task> NetworkLearner<'a, T> {
     /// A network with random weights of the recipe's seed. `device` and `others`: plain ones.
+    ///
+    /// # Errors
+    /// An architecture that breaks a rule.
     pub fn new(
+        task: T,
         recipe: &'a TrainRecipe,
         device: &'a Device,
         others: &[Device],
     ) -> Result<Self, TrainError> {
         let training = device.clone().autodiff();
-        let network = seeded(&training, recipe.seed, || T::network(recipe, &training))?;
+        let network = seeded(&training, recipe.seed, || task.network(&training))?;
         let average = Average::new(recipe.optimiser.average, collect(&network.valid()));
         let others: Vec<Device> = others
             .iter()
             .map(|device| device.clone().autodiff())
             .collect();
-        let replicas = (!others.is_empty()).then(|| Replicas::new(recipe, &training, &others));
+        let replicas = (!others.is_empty()).then(|| Replicas::new(&task, &training, &others));
         Ok(Self {
+            task,
             recipe,
             device,
             training,
@@ -66,7 +72,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
     /// Replaces the random weights.
     pub fn start_from(&mut self, weights: &Weights) -> Result<(), TrainError> {
         let network = self.network.clone();
-        self.network = T::start_from(self.recipe, network, weights, self.device)?;
+        self.network = self.task.start_from(network, weights, self.device)?;
         let values = collect(&self.network.valid());
         self.average = Average::new(self.recipe.optimiser.average, values);
         Ok(())
@@ -96,7 +102,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
         let (loss, gradients) = match &mut self.replicas {
             Some(replicas) => replicas.gradients(&self.network, batch),
             None => {
-                let loss = T::loss(self.recipe, &self.network, batch, &self.training);
+                let loss = self.task.loss(&self.network, batch, &self.training);
                 let gradients = loss.backward();
                 (scalar(loss), gradients)
             }
@@ -120,16 +126,12 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
     }
 
     fn validate(&mut self, _step: usize) -> Result<Validation, TrainError> {
-        T::validate(
-            self.recipe,
-            &self.eval_network(),
-            &self.objects,
-            self.device,
-        )
+        self.task
+            .validate(&self.eval_network(), &self.objects, self.device)
     }
 
     fn result(&self) -> Result<Option<Vec<u8>>, TrainError> {
-        let bytes = T::bytes(self.recipe, &self.eval_network())?;
+        let bytes = self.task.bytes(&self.eval_network())?;
         // Weights that leave the range of half precision become infinite in the file.
         Ok(Weights::from_bytes(RESULT, &bytes).is_ok().then_some(bytes))
     }

@@ -2,7 +2,7 @@ use crate::batch::Batch;
 use crate::init::{check_start, init_error};
 use crate::lights::{disturbed, mixed};
 use crate::task::Task;
-use crate::{TrainError, TrainRecipe};
+use crate::{NetworkRecipe, NormalSettings, TrainError};
 use burn::module::Module;
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{CalibratedStack, Light, normal_error};
@@ -19,7 +19,24 @@ use std::collections::BTreeMap;
 ///
 /// Target: `[samples, 4, size, size]`, the true normal times the pixel's weight in the loss, and that weight; all zero
 /// outside the object.
-pub struct NormalTask;
+#[derive(Debug, Clone)]
+pub struct NormalTask {
+    settings: NormalSettings,
+}
+
+impl NormalTask {
+    /// With these settings.
+    pub fn new(settings: &NormalSettings) -> Self {
+        Self {
+            settings: settings.clone(),
+        }
+    }
+
+    /// Its settings.
+    pub fn settings(&self) -> &NormalSettings {
+        &self.settings
+    }
+}
 
 /// The normal network, and the tower that helps its features while it is trained and then goes.
 #[derive(Module, Debug)]
@@ -31,8 +48,7 @@ pub struct NormalTraining {
 
 impl NormalTraining {
     /// With a tower if the recipe wants one.
-    pub fn new(network: NormalNetwork, recipe: &TrainRecipe, device: &Device) -> Self {
-        let settings = &recipe.normal;
+    pub fn new(network: NormalNetwork, settings: &NormalSettings, device: &Device) -> Self {
         let tower = || AuxiliaryTower::new(&settings.architecture, device);
         let auxiliary = (settings.auxiliary_weight > 0.0).then(tower);
         Self { network, auxiliary }
@@ -43,20 +59,27 @@ impl Task for NormalTask {
     type Network = NormalTraining;
     const FRAMING: Framing = Framing::Crop;
 
-    fn network(recipe: &TrainRecipe, device: &Device) -> Result<NormalTraining, TrainError> {
-        let network = NormalNetwork::new(&recipe.normal.architecture, false, device)?;
-        Ok(NormalTraining::new(network, recipe, device))
+    fn of(network: &NetworkRecipe) -> Option<Self> {
+        match network {
+            NetworkRecipe::Normal(settings) => Some(Self::new(settings)),
+            _ => None,
+        }
+    }
+
+    fn network(&self, device: &Device) -> Result<NormalTraining, TrainError> {
+        let network = NormalNetwork::new(&self.settings.architecture, false, device)?;
+        Ok(NormalTraining::new(network, &self.settings, device))
     }
 
     fn start_from(
-        recipe: &TrainRecipe,
+        &self,
         training: NormalTraining,
         weights: &Weights,
         device: &Device,
     ) -> Result<NormalTraining, TrainError> {
         let stored = weights.normal_network(device)?;
         let plain = matches!(stored.architecture.body, NormalBody::Plain(_));
-        let same = stored.architecture == recipe.normal.architecture;
+        let same = stored.architecture == self.settings.architecture;
         check_start(weights, plain, same)?;
         let NormalTraining { network, auxiliary } = training;
         let filled = fill(network, &mut collect(&stored.network));
@@ -64,17 +87,11 @@ impl Task for NormalTask {
         Ok(NormalTraining { network, auxiliary })
     }
 
-    fn append(
-        recipe: &TrainRecipe,
-        sample: &Sample,
-        predicted: Option<&[Light]>,
-        seed: u64,
-        batch: &mut Batch,
-    ) {
-        let lights = mixed(&recipe.normal, &sample.lights, predicted, seed);
+    fn append(&self, sample: &Sample, predicted: Option<&[Light]>, seed: u64, batch: &mut Batch) {
+        let lights = mixed(&self.settings, &sample.lights, predicted, seed);
         let area = sample.size * sample.size;
         let images: Vec<&[f32]> = sample.images.chunks_exact(3 * area).collect();
-        let mask_channel = recipe.normal.architecture.mask_channel;
+        let mask_channel = self.settings.architecture.mask_channel;
         let read = |image: usize, planes: &mut [f32]| planes.copy_from_slice(images[image]);
         let input = NormalInput::new(mask_channel, sample.mask.clone(), &lights, read);
         let image_values = area * NormalInput::channels(mask_channel);
@@ -85,7 +102,7 @@ impl Task for NormalTask {
             input.encode(planes, light, |pixel| pixel, out);
         }
         // Weights of pixels enter as the length of the true normal and as the mask's value.
-        let weights = pixel_weights(sample, recipe.normal.curvature_weight);
+        let weights = pixel_weights(sample, self.settings.curvature_weight);
         for axis in 0..3 {
             let normals = sample.normals.iter().zip(&weights);
             batch
@@ -95,16 +112,11 @@ impl Task for NormalTask {
         batch.target.extend(&weights);
     }
 
-    fn channels(recipe: &TrainRecipe) -> usize {
-        recipe.normal.architecture.input_channels()
+    fn channels(&self) -> usize {
+        self.settings.architecture.input_channels()
     }
 
-    fn loss(
-        recipe: &TrainRecipe,
-        training: &NormalTraining,
-        batch: &Batch,
-        device: &Device,
-    ) -> Tensor<1> {
+    fn loss(&self, training: &NormalTraining, batch: &Batch, device: &Device) -> Tensor<1> {
         let fused = training.network.fuse(batch.input(device), batch.samples);
         let (count, size) = (batch.samples, batch.size);
         let target = TensorData::new(batch.target.clone(), [count, 4, size, size]);
@@ -121,7 +133,7 @@ impl Task for NormalTask {
         let auxiliary = auxiliary.map(|tower| loss(tower.forward(fused.features())));
         let main = loss(training.network.regress(fused));
         match auxiliary {
-            Some(auxiliary) => main + auxiliary * recipe.normal.auxiliary_weight,
+            Some(auxiliary) => main + auxiliary * self.settings.auxiliary_weight,
             None => main,
         }
     }
@@ -134,7 +146,7 @@ impl Task for NormalTask {
     }
 
     fn validate(
-        recipe: &TrainRecipe,
+        &self,
         training: &NormalTraining,
         objects: &[Sample],
         device: &Device,
@@ -142,13 +154,13 @@ impl Task for NormalTask {
         let mut sum = 0.0;
         let mut shares = [0.0; 3];
         let loaded = LoadedNetwork {
-            architecture: recipe.normal.architecture.clone(),
+            architecture: self.settings.architecture.clone(),
             network: training.network.clone(),
             device: device.clone(),
         };
         for (index, sample) in objects.iter().enumerate() {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-            let lights = disturbed(&recipe.normal, &sample.lights, index as u64);
+            let lights = disturbed(&self.settings, &sample.lights, index as u64);
             let calibrated = CalibratedStack::new(&stack, &mask, &lights)?;
             let views = Quality::Fast.views();
             let normals = pollster::block_on(loaded.estimate(
@@ -170,8 +182,8 @@ impl Task for NormalTask {
         })
     }
 
-    fn bytes(recipe: &TrainRecipe, training: &NormalTraining) -> Result<Vec<u8>, TrainError> {
-        let architecture = &recipe.normal.architecture;
+    fn bytes(&self, training: &NormalTraining) -> Result<Vec<u8>, TrainError> {
+        let architecture = &self.settings.architecture;
         Ok(Weights::normal_bytes(
             architecture,
             &training.network,
@@ -209,6 +221,7 @@ fn pixel_weights(sample: &Sample, curvature: f32) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::LightMix;
     use glam::Vec3;
     use normalight_synth::{Preset, Renderer};
 
@@ -216,11 +229,17 @@ mod tests {
     #[test]
     fn training_and_pipeline_encode_alike() {
         let device = Device::flex();
-        let toml = "network = 'normal'\nsteps = 1\nsize = 16\n\
-            [normal.lights]\ntrue = 0.0\nperturbed = 1.0\n";
-        let recipe = TrainRecipe::parse("recipe.toml", toml).unwrap();
+        let settings = NormalSettings {
+            lights: LightMix {
+                truth: 0.0,
+                perturbed: 1.0,
+                ..LightMix::default()
+            },
+            ..NormalSettings::default()
+        };
+        let task = NormalTask::new(&settings);
         let renderer = Renderer::new(Preset::World.recipe()).unwrap();
-        let training = NormalTask::network(&recipe, &device).unwrap();
+        let training = task.network(&device).unwrap();
         for number in 0..3 {
             let mut sample = renderer.sample(number, 5, 16, Framing::Crop);
             // So that the pipeline's tile is the whole crop.
@@ -229,19 +248,19 @@ mod tests {
                 samples: 1,
                 images: 5,
                 size: 16,
-                channels: NormalTask::channels(&recipe),
+                channels: task.channels(),
                 input: Vec::new(),
                 target: Vec::new(),
             };
-            NormalTask::append(&recipe, &sample, None, number, &mut batch);
+            task.append(&sample, None, number, &mut batch);
             let fused = training.network.fuse(batch.input(&device), 1);
             let shown = training.network.regress(fused).into_data();
             let shown = shown.try_to_vec::<f32>().unwrap();
             let (stack, mask) = (sample.to_stack().unwrap(), sample.to_mask());
-            let lights = mixed(&recipe.normal, &sample.lights, None, number);
+            let lights = mixed(&settings, &sample.lights, None, number);
             let calibrated = CalibratedStack::new(&stack, &mask, &lights).unwrap();
             let loaded = LoadedNetwork {
-                architecture: recipe.normal.architecture.clone(),
+                architecture: settings.architecture.clone(),
                 network: training.network.clone(),
                 device: device.clone(),
             };

@@ -1,5 +1,5 @@
 //! The errors that a light network makes, as the lights of training samples.
-use crate::{Network, TrainError, TrainRecipe};
+use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use glam::Vec3;
 use normalight_core::{Decoding, Light};
@@ -43,10 +43,12 @@ impl Predictor {
     /// # Errors
     /// The file, or weights of another network.
     pub fn of(recipe: &TrainRecipe, device: &Device) -> Result<Option<Self>, TrainError> {
-        let mix = &recipe.normal.lights;
-        (recipe.network == Network::Normal && mix.predicted > 0.0)
-            .then(|| Self::new(mix.light_weights.as_deref(), device))
-            .transpose()
+        match &recipe.network {
+            NetworkRecipe::Normal(settings) if settings.lights.predicted > 0.0 => {
+                Self::new(settings.lights.light_weights.as_deref(), device).map(Some)
+            }
+            _ => Ok(None),
+        }
     }
 
     /// `file`: a light network's weights; the shipped ones when missing.

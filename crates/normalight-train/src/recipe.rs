@@ -1,112 +1,60 @@
 //! Everything that decides a training run.
 mod check;
 mod genotype;
+mod network;
 mod networks;
 mod sources;
+mod stored;
 
 pub(crate) use check::MOST_GIGABYTES;
 pub use genotype::{read_table, take_out};
+pub use network::{Network, NetworkRecipe};
 pub use networks::{LightMix, LightSettings, NormalSettings};
 pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
 
 use crate::TrainError;
-use normalight_model::{Genotypes, LightBody, NormalBody, light_cost, normal_cost};
+use normalight_model::Genotypes;
 use normalight_run::{OptimiserRecipe, RunError};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-
-/// Which network a recipe trains.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Network {
-    /// The light calibration network.
-    Light,
-    /// The normal estimation network.
-    Normal,
-}
-
-impl Network {
-    /// The word for it: `light` or `normal`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Light => "light",
-            Self::Normal => "normal",
-        }
-    }
-}
+use stored::Stored;
 
 /// Everything that decides a training run; one TOML file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "Stored", into = "Stored")]
 pub struct TrainRecipe {
-    /// Which network.
-    pub network: Network,
+    /// Which network, and what concerns it alone.
+    pub network: NetworkRecipe,
     /// Number of optimiser steps.
     pub steps: usize,
     /// Samples per step.
-    #[serde(default = "defaults::batch")]
     pub batch: usize,
     /// Fewest and most images of a sample; all samples of a step have the same number.
-    #[serde(default = "defaults::images")]
     pub images: [usize; 2],
     /// Side of the training pictures in pixels: crops for normals, whole objects for lights.
     pub size: usize,
     /// Seed of weights and samples.
-    #[serde(default)]
     pub seed: u64,
     /// Weights to start from instead of random ones: of the same network, without normalisation layers.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub init: Option<PathBuf>,
     /// Steps between validations on unseen objects.
-    #[serde(default = "defaults::validate_every")]
     pub validate_every: usize,
     /// Number of unseen objects.
-    #[serde(default = "defaults::validation_objects")]
     pub validation_objects: usize,
     /// Steps between checkpoints.
-    #[serde(default = "defaults::checkpoint_every")]
     pub checkpoint_every: usize,
     /// Threads that make samples; by default one fewer than there are cores. The samples do not depend
     /// on it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loader_threads: Option<usize>,
     /// How weights follow gradients.
-    #[serde(default)]
     pub optimiser: OptimiserRecipe,
     /// What the samples show.
-    #[serde(default)]
     pub scene: SceneRecipe,
     /// Keep rendered scenes in a folder and use them again.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cache: Option<CacheRecipe>,
     /// Train on a published set instead of rendered scenes; brightness and camera still come from `scene`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub published: Option<PublishedRecipe>,
-    /// Settings of the light network; needed when `network` is `light`.
-    #[serde(default)]
-    pub light: LightSettings,
-    /// Settings of the normal network; needed when `network` is `normal`.
-    #[serde(default)]
-    pub normal: NormalSettings,
-}
-
-mod defaults {
-    pub(super) fn batch() -> usize {
-        16
-    }
-    pub(super) fn images() -> [usize; 2] {
-        [6, 16]
-    }
-    pub(super) fn validate_every() -> usize {
-        250
-    }
-    pub(super) fn validation_objects() -> usize {
-        24
-    }
-    pub(super) fn checkpoint_every() -> usize {
-        100
-    }
 }
 
 impl TrainRecipe {
@@ -178,7 +126,7 @@ impl TrainRecipe {
         let mut paths: Vec<&mut PathBuf> = Vec::new();
         paths.extend(self.published.as_mut().map(|set| &mut set.folder));
         paths.extend(self.cache.as_mut().map(|cache| &mut cache.folder));
-        paths.extend(self.normal.lights.light_weights.as_mut());
+        paths.extend(self.network.light_weights_mut());
         paths.extend(self.init.as_mut());
         for path in paths {
             *path = folder.join(&*path);
@@ -191,28 +139,13 @@ impl TrainRecipe {
     /// # Errors
     /// [`RunError::Value`] when the network is a plain one, or the genotypes have none of its cells.
     pub fn with_cells(mut self, genotypes: &Genotypes) -> Result<Self, TrainError> {
-        let done = match self.network {
-            Network::Light => match (&mut self.light.architecture.body, &genotypes.light) {
-                (LightBody::Cells(cells), Some(genotype)) => {
-                    cells.genotype = genotype.clone();
-                    true
-                }
-                _ => false,
-            },
-            Network::Normal => match (&mut self.normal.architecture.body, &genotypes.normal) {
-                (NormalBody::Cells(cells), Some(genotype)) => {
-                    cells.genotype = genotype.clone();
-                    true
-                }
-                _ => false,
-            },
-        };
+        let done = self.network.choose_cells(genotypes);
         if done {
             return Ok(self);
         }
         Err(TrainError::Run(RunError::Value {
             field: "genotype",
-            found: format!("not for this {} network", self.network.name()),
+            found: format!("not for this {} network", self.network.kind().name()),
             expected: "cells of the recipe's network, which must be one of cells",
         }))
     }
@@ -232,10 +165,7 @@ impl TrainRecipe {
 
     /// Number of trainable parameters of the network that is trained, the auxiliary tower left out.
     pub fn parameters(&self) -> usize {
-        match self.network {
-            Network::Light => light_cost(&self.light.architecture).parameters,
-            Network::Normal => normal_cost(&self.normal.architecture, 0).parameters,
-        }
+        self.network.parameters()
     }
 
     /// Learning rate of a step, from 0.

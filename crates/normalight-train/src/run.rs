@@ -8,7 +8,7 @@ use crate::recipe::MOST_GIGABYTES;
 use crate::samples::SampleMaker;
 use crate::source::Source;
 use crate::task::Task;
-use crate::{Network, TrainError, TrainRecipe};
+use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use normalight_run::{LoopSchedule, RunEvent, RunSpec, Session, Summary, run_job};
 use std::ops::ControlFlow;
@@ -23,9 +23,6 @@ pub const FREE: [&str; 4] = [
     "steps",
     "validate_every",
 ];
-
-/// Side in pixels of the whole objects that normals are validated on.
-const VALIDATION_PIXELS: usize = 96;
 
 /// A training run: one folder.
 #[derive(Debug, Clone)]
@@ -79,7 +76,7 @@ pub fn train<'a>(
         resume: run.resume,
         recipe: recipe.to_toml()?,
         free: &FREE,
-        network: recipe.network.name().to_owned(),
+        network: recipe.network.kind().name().to_owned(),
         parameters: recipe.parameters(),
         seed: recipe.seed,
         schedule: LoopSchedule {
@@ -91,23 +88,22 @@ pub fn train<'a>(
         result: RESULT,
     };
     let card = |summary: &Summary| model_card(recipe, summary, &run.command);
-    match recipe.network {
-        Network::Light => run_job(
-            &spec,
-            &mut observe,
-            |session| train_network::<LightTask, _>(recipe, devices, session),
-            card,
-        ),
-        Network::Normal => run_job(
-            &spec,
-            &mut observe,
-            |session| train_network::<NormalTask, _>(recipe, devices, session),
-            card,
-        ),
+    match &recipe.network {
+        NetworkRecipe::Light(settings) => {
+            let task = LightTask::new(settings);
+            let train = |session: &mut Session<_>| train_network(task, recipe, devices, session);
+            run_job(&spec, &mut observe, train, card)
+        }
+        NetworkRecipe::Normal(settings) => {
+            let task = NormalTask::new(settings);
+            let train = |session: &mut Session<_>| train_network(task, recipe, devices, session);
+            run_job(&spec, &mut observe, train, card)
+        }
     }
 }
 
 fn train_network<T, O>(
+    task: T,
     recipe: &TrainRecipe,
     devices: &Devices<'_>,
     session: &mut Session<O>,
@@ -119,7 +115,7 @@ where
     // Before anything is written: a file that the recipe names may be missing.
     let source = Arc::new(Source::open(recipe, T::FRAMING)?);
     let predictor = Predictor::of(recipe, devices.main)?;
-    let mut learner = NetworkLearner::<T>::new(recipe, devices.main, devices.others)?;
+    let mut learner = NetworkLearner::new(task.clone(), recipe, devices.main, devices.others)?;
     session.begin(&mut learner, |learner| {
         let Some(init) = &recipe.init else {
             return Ok(format!(
@@ -130,17 +126,11 @@ where
         learner.start_from(&read_weights(init)?)?;
         Ok(format!("started from {}", init.display()))
     })?;
-    learner.validate_on(source.validation_objects(recipe, validation_pixels(recipe))?);
-    let maker = SampleMaker::<T>::new(recipe, &source, predictor);
+    learner.validate_on(
+        source.validation_objects(recipe, recipe.network.validation_pixels(recipe.size))?,
+    );
+    let maker = SampleMaker::new(task, recipe, &source, predictor);
     session.go(&mut learner, &maker, threads(recipe))
-}
-
-/// Side in pixels of the objects to validate on: normals on whole objects, whatever the crops to train on are.
-pub fn validation_pixels(recipe: &TrainRecipe) -> usize {
-    match recipe.network {
-        Network::Light => recipe.size,
-        Network::Normal => VALIDATION_PIXELS,
-    }
 }
 
 /// Threads that make samples: one core is left to the training, and no more memory is taken than a

@@ -6,11 +6,11 @@ use crate::task::Task;
 use crate::{TrainError, TrainRecipe};
 use normalight_run::BatchMaker;
 use normalight_synth::{Framing, Sample, Scene};
-use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// Makes the batches of one network's training.
 pub struct SampleMaker<T> {
+    task: T,
     recipe: Arc<TrainRecipe>,
     source: Arc<Source>,
     predictor: Option<Predictor>,
@@ -18,7 +18,6 @@ pub struct SampleMaker<T> {
     /// batch are of different scenes while each scene gives several.
     group: Option<usize>,
     scenes: Vec<(Scene, Option<Prediction>)>,
-    task: PhantomData<fn() -> T>,
 }
 
 /// Number of the first scene of a step's batch; the others follow it.
@@ -35,14 +34,19 @@ fn seed(recipe: &TrainRecipe, major: usize, minor: usize) -> u64 {
 
 impl<T: Task> SampleMaker<T> {
     /// `predictor`: for a recipe that asks for predicted lights.
-    pub fn new(recipe: &TrainRecipe, source: &Arc<Source>, predictor: Option<Predictor>) -> Self {
+    pub fn new(
+        task: T,
+        recipe: &TrainRecipe,
+        source: &Arc<Source>,
+        predictor: Option<Predictor>,
+    ) -> Self {
         Self {
+            task,
             recipe: Arc::new(recipe.clone()),
             source: Arc::clone(source),
             predictor,
             group: None,
             scenes: Vec::new(),
-            task: PhantomData,
         }
     }
 
@@ -88,7 +92,12 @@ impl<T: Task> BatchMaker for SampleMaker<T> {
     type Error = TrainError;
 
     fn for_thread(&self) -> Self {
-        Self::new(&self.recipe, &self.source, self.predictor.clone())
+        Self::new(
+            self.task.clone(),
+            &self.recipe,
+            &self.source,
+            self.predictor.clone(),
+        )
     }
 
     fn together(&self) -> usize {
@@ -107,7 +116,7 @@ impl<T: Task> BatchMaker for SampleMaker<T> {
             samples: 0,
             images,
             size: recipe.size,
-            channels: T::channels(&recipe),
+            channels: self.task.channels(),
             input: Vec::new(),
             target: Vec::new(),
         };
@@ -120,7 +129,8 @@ impl<T: Task> BatchMaker for SampleMaker<T> {
                 });
             }
             let seed = seed(&recipe, step, k);
-            T::append(&recipe, &sample, predicted.as_deref(), seed, &mut batch);
+            self.task
+                .append(&sample, predicted.as_deref(), seed, &mut batch);
             batch.samples += 1;
         }
         Ok(batch)

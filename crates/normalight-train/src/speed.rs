@@ -3,10 +3,10 @@ use crate::normal_task::NormalTask;
 use crate::samples::SampleMaker;
 use crate::source::Source;
 use crate::task::Task;
-use crate::{TrainError, TrainRecipe};
+use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::Gradients;
-use normalight_run::{BatchMaker, HostGradients, Optimiser, OptimiserRecipe};
+use normalight_run::{BatchMaker, HostGradients, Optimiser, OptimiserRecipe, RunError};
 use std::sync::Arc;
 
 /// The optimiser as training uses it.
@@ -44,9 +44,16 @@ impl SampleSource {
     /// What is wrong with the recipe or its files.
     pub fn new(recipe: &TrainRecipe) -> Result<Self, TrainError> {
         recipe.validate()?;
+        let NetworkRecipe::Normal(settings) = &recipe.network else {
+            return Err(TrainError::Run(RunError::Value {
+                field: "network",
+                found: recipe.network.kind().name().to_owned(),
+                expected: "normal",
+            }));
+        };
         let source = Arc::new(Source::open(recipe, NormalTask::FRAMING)?);
         Ok(Self {
-            maker: SampleMaker::new(recipe, &source, None),
+            maker: SampleMaker::new(NormalTask::new(settings), recipe, &source, None),
             steps: 0..,
         })
     }

@@ -69,7 +69,7 @@ fn a_resumed_run_is_the_same_bit_for_bit() {
         let weights = Weights::from_bytes(name, &broken["weights.safetensors"]).unwrap();
         let device = burn::tensor::Device::flex();
         // Every tensor is used and none is missing: nothing of the auxiliary tower is left.
-        match recipe.network.name() {
+        match recipe.network.kind().name() {
             "light" => drop(weights.light_network(&device).unwrap()),
             _ => drop(weights.normal_network(&device).unwrap()),
         }

@@ -3,7 +3,7 @@ mod common;
 
 use common::*;
 use normalight_model::{Architecture, Weights};
-use normalight_train::TrainRecipe;
+use normalight_train::{NetworkRecipe, TrainRecipe};
 use std::path::Path;
 
 fn losses(recipe: &TrainRecipe) -> Vec<f32> {
@@ -110,13 +110,18 @@ fn a_run_starts_from_weights() {
         recipe.images = [8, 8];
         recipe.size = recipe.size.max(32);
         recipe.batch = 8;
-        // The tower has no weights to start from.
-        recipe.normal.auxiliary_weight = 0.0;
         let path = models.join(format!("{file}.safetensors"));
         let shipped = Weights::from_bytes(file, &std::fs::read(&path).unwrap()).unwrap();
-        match shipped.architecture().clone() {
-            Architecture::Light(light) => recipe.light.architecture = light,
-            Architecture::Normal(normal) => recipe.normal.architecture = normal,
+        match (shipped.architecture().clone(), &mut recipe.network) {
+            (Architecture::Light(light), NetworkRecipe::Light(settings)) => {
+                settings.architecture = light;
+            }
+            (Architecture::Normal(normal), NetworkRecipe::Normal(settings)) => {
+                // The tower has no weights to start from.
+                settings.auxiliary_weight = 0.0;
+                settings.architecture = normal;
+            }
+            _ => panic!("weights of the other network"),
         }
         let random = losses(&recipe);
         recipe.init = Some(path);

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use burn::tensor::{Device, Distribution, Tensor};
 use normalight_io::write_files;
 use normalight_model::{Operation, OperationLayer};
-use normalight_search::{OperationTime, OperationTimes, placements};
+use normalight_search::{OperationTime, OperationTimes};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -27,10 +27,11 @@ pub(crate) fn run(args: &BenchOpsArgs) -> Result<Outcome> {
         .build()
         .with_context(|| format!("{threads} threads cannot be started"))?;
     let mut cases = Vec::new();
-    for place in placements(&recipe.training) {
+    let training = &recipe.training;
+    for site in training.network.cell_sites(training.size) {
         for stride in [1, 2] {
-            if stride == 1 || place.reduces {
-                cases.push((place.width, place.area, stride));
+            if stride == 1 || site.reduces {
+                cases.push((site.width, site.area, stride));
             }
         }
     }

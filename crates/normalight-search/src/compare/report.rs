@@ -131,7 +131,7 @@ impl EntryResult {
             kind,
             source,
             group: entry.random.then(|| RANDOM.to_owned()),
-            width: width::width(recipe),
+            width: recipe.network.width(),
             parameters: recipe.parameters(),
             multiply_adds: width::multiply_adds(recipe),
             steps: recipe.steps,
@@ -140,7 +140,7 @@ impl EntryResult {
             seeds: Vec::new(),
             mean: None,
             spread: None,
-            operations: entry.operations(recipe.network),
+            operations: entry.operations(recipe.network.kind()),
         }
     }
 

@@ -149,7 +149,8 @@ fn median_seconds<T: Task>(
     batch: &Batch,
     device: &Device,
 ) -> Result<f64, TrainError> {
-    let mut learner = NetworkLearner::<T>::new(recipe, device, &[])?;
+    let task = T::of(&recipe.network).expect("all recipes train the network of the schedule");
+    let mut learner = NetworkLearner::new(task, recipe, device, &[])?;
     for step in 0..WARM_UP {
         learner.learn(batch, step)?;
     }

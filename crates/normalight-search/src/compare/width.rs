@@ -1,10 +1,8 @@
 //! Networks of equal cost: their width is what is left to choose.
 use super::{Body, Entry};
-use normalight_model::{
-    LightArchitecture, LightBody, NormalBody, PlainNormal, light_cost, normal_cost,
-};
+use normalight_model::{LightArchitecture, LightBody, NormalBody, PlainNormal};
 use normalight_run::RunError;
-use normalight_train::{Network, TrainError, TrainRecipe};
+use normalight_train::{NetworkRecipe, TrainError, TrainRecipe};
 
 /// Images of the stack whose cost counts.
 const IMAGES: usize = 10;
@@ -20,42 +18,24 @@ const TOLERANCE: f64 = 0.1;
 
 /// Multiply-adds of a recipe's network for a stack of ten images of the recipe's size.
 pub(super) fn multiply_adds(recipe: &TrainRecipe) -> u64 {
-    let cost = match recipe.network {
-        Network::Light => light_cost(&recipe.light.architecture),
-        Network::Normal => normal_cost(&recipe.normal.architecture, recipe.size * recipe.size),
-    };
-    cost.multiply_adds(IMAGES)
-}
-
-/// Base width of a recipe's network: channels of the first layer of a plain one, of the nodes of the first cells.
-pub(super) fn width(recipe: &TrainRecipe) -> usize {
-    match recipe.network {
-        Network::Light => match &recipe.light.architecture.body {
-            LightBody::Plain(plain) => plain.widths[0],
-            LightBody::Cells(cells) => cells.width,
-        },
-        Network::Normal => match &recipe.normal.architecture.body {
-            NormalBody::Plain(plain) => plain.widths[0],
-            NormalBody::Cells(cells) => cells.width,
-        },
-    }
+    recipe.network.multiply_adds(IMAGES, recipe.size)
 }
 
 /// The recipe with a plain network of that base width in place of its cells; inputs and classes stay.
 pub(super) fn plain(recipe: &TrainRecipe, width: usize) -> TrainRecipe {
     let mut recipe = recipe.clone();
     let widths = [width, 2 * width, 4 * width];
-    match recipe.network {
-        Network::Light => {
-            let body = &mut recipe.light.architecture.body;
+    match &mut recipe.network {
+        NetworkRecipe::Light(settings) => {
+            let body = &mut settings.architecture.body;
             *body = LightArchitecture::plain().body;
             if let LightBody::Plain(plain) = body {
                 plain.widths = widths;
             }
         }
-        Network::Normal => {
+        NetworkRecipe::Normal(settings) => {
             let plain = PlainNormal::new(widths, 2 * width);
-            recipe.normal.architecture.body = NormalBody::Plain(plain);
+            settings.architecture.body = NormalBody::Plain(plain);
         }
     }
     recipe
@@ -104,11 +84,8 @@ pub(super) fn fitted(
 /// The same cells of another width.
 fn with_width(recipe: &TrainRecipe, width: usize) -> TrainRecipe {
     let mut recipe = recipe.clone();
-    if let LightBody::Cells(cells) = &mut recipe.light.architecture.body {
-        cells.width = width;
-    }
-    if let NormalBody::Cells(cells) = &mut recipe.normal.architecture.body {
-        cells.width = width;
+    if let Some(cells) = recipe.network.cell_width_mut() {
+        *cells = width;
     }
     recipe
 }
@@ -144,7 +121,7 @@ mod tests {
             for target in [40_000_000, 77_000_000, 300_000_000] {
                 let fitted = fitted(&recipe, &entry, target).unwrap();
                 let missed = multiply_adds(&fitted).abs_diff(target);
-                let chosen = width(&fitted);
+                let chosen = fitted.network.width();
                 let cost = |width: usize| match entry.body {
                     Body::Plain => multiply_adds(&plain(&recipe, width)),
                     Body::Cells(_) => multiply_adds(&with_width(&fitted, width)),
@@ -167,14 +144,21 @@ mod tests {
     fn the_standard_plain_network_is_the_one_that_ships() {
         let recipe = recipe("normal");
         let standard = plain(&recipe, STANDARD);
-        assert_eq!(standard.normal.architecture, NormalArchitecture::plain());
+        let NetworkRecipe::Normal(settings) = &standard.network else {
+            panic!("a normal network's recipe");
+        };
+        assert_eq!(settings.architecture, NormalArchitecture::plain());
         let target = multiply_adds(&standard);
         let fitted = fitted(&recipe, &Entry::plain(), target).unwrap();
         assert_eq!(fitted, standard);
         let light = self::recipe("light");
-        let plain = plain(&light, STANDARD).light.architecture;
+        let plain = plain(&light, STANDARD);
+        let [plain, light] = [&plain, &light].map(|recipe| match &recipe.network {
+            NetworkRecipe::Light(settings) => &settings.architecture,
+            NetworkRecipe::Normal(_) => panic!("a light network's recipe"),
+        });
         assert_eq!(plain.body, LightArchitecture::plain().body);
-        assert_eq!(plain.bins, light.light.architecture.bins);
+        assert_eq!(plain.bins, light.bins);
     }
 
     #[test]

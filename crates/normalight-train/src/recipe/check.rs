@@ -1,4 +1,4 @@
-use super::{Network, TrainRecipe};
+use super::TrainRecipe;
 use crate::TrainError;
 use normalight_run::{RunError, check};
 
@@ -49,8 +49,7 @@ impl TrainRecipe {
         check("loader_threads", threads, 1..=1024, "1 to 1024")?;
         self.check_memory()?;
         self.optimiser.validate()?;
-        self.light.validate()?;
-        self.normal.validate()?;
+        self.network.validate(self.size)?;
         self.scene.validate()?;
         if let Some(cache) = &self.cache {
             check("cache.scenes", cache.scenes, 1..=100_000_000, "1 or more")?;
@@ -61,20 +60,6 @@ impl TrainRecipe {
                     expected: "rendered scenes; a published set is read from its own folder",
                 }));
             }
-        }
-        if self.network == Network::Light && self.size != self.light.architecture.input_size {
-            return Err(TrainError::Run(RunError::Value {
-                field: "size",
-                found: self.size.to_string(),
-                expected: "the light network's input_size",
-            }));
-        }
-        if self.network == Network::Normal && !self.size.is_multiple_of(8) {
-            return Err(TrainError::Run(RunError::Value {
-                field: "size",
-                found: self.size.to_string(),
-                expected: "a multiple of 8",
-            }));
         }
         Ok(())
     }
