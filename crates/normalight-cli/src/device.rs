@@ -3,6 +3,7 @@ use crate::choices::DeviceChoice;
 use anyhow::{Result, bail};
 use burn::tensor::wgpu::wgpu::{AdapterInfo, DeviceType};
 use burn::tensor::{Device, DeviceKind};
+use normalight_run::StepsOn;
 
 /// A device ready for use, and what reports call it.
 pub(crate) struct OpenDevice {
@@ -19,6 +20,14 @@ pub(crate) fn open(choice: DeviceChoice) -> Result<OpenDevice> {
         DeviceChoice::Cuda => open_cuda(),
         DeviceChoice::SoftwareGpu => open_software_gpu(),
         DeviceChoice::Reference => Ok(reference()),
+    }
+}
+
+/// Where an optimiser best computes for a network on a device: where it is, unless that is this processor.
+pub(crate) fn steps_on(device: &Device) -> StepsOn {
+    match device.identity() {
+        Some(_) => StepsOn::Device,
+        None => StepsOn::Host,
     }
 }
 
@@ -137,6 +146,12 @@ fn named(device: Device, adapter: &AdapterInfo) -> OpenDevice {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn steps_stay_on_the_processor() {
+        assert_eq!(steps_on(&cpu().device), StepsOn::Host);
+        assert_eq!(steps_on(&reference().device), StepsOn::Host);
+    }
 
     #[test]
     fn software_is_no_gpu() {

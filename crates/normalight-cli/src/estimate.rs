@@ -29,15 +29,15 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
     let lights = read_lights(args, &input)?;
     let read = start.elapsed() - opened;
 
-    let mut follower = ProgressObserver::new("", args.quiet);
+    let mut observer = ProgressObserver::new("", args.quiet);
     let estimated = pollster::block_on(estimation.estimator.estimate(
         &input.stack,
         &input.mask,
         lights.as_deref(),
         estimation.settings,
-        &mut follower,
+        &mut observer,
     ));
-    let stages = follower.finish();
+    let stages = observer.finish();
     let estimate = match estimated {
         Err(ModelError::Cancelled) => return Ok(Outcome::Interrupted),
         estimated => estimated?,

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
         device: estimation.device.clone(),
         weights: estimation.hashes(args.calibrated),
         parameters: estimation.estimator.parameters(),
-        settings: describe(&args.estimation, args.calibrated),
+        settings: describe(&args.estimation, &estimation.settings, args.calibrated),
         tables: Vec::new(),
     };
     print(&heading(&evaluation))?;
@@ -129,7 +129,7 @@ fn measure_object(
     } else {
         LightsFrom::Photographs
     };
-    let mut follower = ProgressObserver::new(format!("{}: ", object.name), args.quiet);
+    let mut observer = ProgressObserver::new(format!("{}: ", object.name), args.quiet);
     let estimator = &estimation.estimator;
     let settings = estimation.settings;
     Ok(evaluate_object(
@@ -137,7 +137,7 @@ fn measure_object(
         &object,
         lights,
         settings,
-        &mut follower,
+        &mut observer,
     )?)
 }
 

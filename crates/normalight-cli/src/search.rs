@@ -52,6 +52,7 @@ fn find(args: &SearchArgs, recipe: SearchRecipe) -> Result<Outcome> {
         recipe,
         folder: args.run.clone(),
         resume: args.resume,
+        steps_on: device::steps_on(&device),
         command: std::env::args().collect::<Vec<_>>().join(" "),
     };
     let summary = search(&run, &device, |event| {

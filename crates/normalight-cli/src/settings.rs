@@ -36,21 +36,17 @@ impl Estimation {
 
     /// Hashes of the weights that are used.
     pub(crate) fn hashes(&self, lights_given: bool) -> WeightHashes {
-        let [light, normal] = self.estimator.weight_hashes();
-        WeightHashes {
-            light: (!lights_given).then(|| light.to_owned()),
-            normal: Some(normal.to_owned()),
-        }
+        WeightHashes::new(self.estimator.weight_hashes(), lights_given)
     }
 }
 
-/// The settings as the command line names them, for reports. Lights that were given are never
-/// refitted.
+/// The settings as the command line names them, for reports.
 pub(crate) fn describe(
     args: &EstimationArgs,
+    settings: &EstimateSettings,
     lights_given: bool,
 ) -> serde_json::Map<String, serde_json::Value> {
-    let refit = !args.no_refit && !lights_given;
+    let refit = settings.refit_of(lights_given).is_some();
     [
         ("device".to_owned(), word(args.device).into()),
         ("quality".to_owned(), word(args.quality).into()),

@@ -29,7 +29,12 @@ pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
         resume: args.resume,
         command: std::env::args().collect::<Vec<_>>().join(" "),
     };
-    let summary = train(&run, Devices { main, others }, |event| {
+    let devices = Devices {
+        main,
+        others,
+        steps_on: device::steps_on(main),
+    };
+    let summary = train(&run, devices, |event| {
         monitor.show(event);
         interrupt::answer()
     })?;

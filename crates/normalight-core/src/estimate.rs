@@ -12,6 +12,13 @@ pub struct EstimateSettings {
     pub quality: Quality,
 }
 
+impl EstimateSettings {
+    /// How lights are refitted, if they are: those that were given never.
+    pub fn refit_of(&self, lights_given: bool) -> Option<RefitSettings> {
+        self.refit.filter(|_| !lights_given)
+    }
+}
+
 impl Default for EstimateSettings {
     fn default() -> Self {
         Self {

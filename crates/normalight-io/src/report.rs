@@ -70,6 +70,16 @@ pub struct WeightHashes {
     pub normal: Option<String>,
 }
 
+impl WeightHashes {
+    /// Of the light and the normal weights; given lights need no light network.
+    pub fn new([light, normal]: [&str; 2], lights_given: bool) -> Self {
+        Self {
+            light: (!lights_given).then(|| light.to_owned()),
+            normal: Some(normal.to_owned()),
+        }
+    }
+}
+
 /// How long one stage took.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StageSeconds {

@@ -29,10 +29,8 @@ impl RunDescription<'_> {
     /// What `report.json` says about the run.
     pub fn report(&self, input: &StackInput) -> Report {
         let [asked, used] = self.device.map(str::to_owned);
-        let [light, normal] = self.weights.map(str::to_owned);
         let given = self.lights_file;
-        // Lights that were given are never refitted.
-        let refit = self.settings.refit.is_some() && given.is_none();
+        let refit = self.settings.refit_of(given.is_some()).is_some();
         Report {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             inputs: input.picked_names(),
@@ -42,10 +40,7 @@ impl RunDescription<'_> {
             color: self.reading.color,
             lights_from: lights_label(given, refit),
             device: used,
-            weights: WeightHashes {
-                light: given.is_none().then_some(light),
-                normal: Some(normal),
-            },
+            weights: WeightHashes::new(self.weights, given.is_some()),
             settings: ReportSettings {
                 device: asked,
                 quality: self.settings.quality,

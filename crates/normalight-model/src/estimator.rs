@@ -67,7 +67,7 @@ impl Estimator {
             }
         };
         let mut stage = PipelineStage::Normals;
-        if let (Some(refit), None) = (settings.refit, given) {
+        if let Some(refit) = settings.refit_of(given.is_some()) {
             let views = settings.quality.refit_views();
             let calibrated = CalibratedStack::new(stack, mask, &lights)?;
             let normals = self

@@ -16,6 +16,14 @@ pub struct LightOptions {
     pub quality: Quality,
 }
 
+impl LightOptions {
+    /// One look, for lights that are needed often: in training.
+    pub const FAST: Self = Self {
+        decoding: Decoding::SoftArgmax,
+        quality: Quality::Fast,
+    };
+}
+
 impl LoadedLightNetwork {
     /// Estimates the light of every image: one pass for the maximum of the features over the images,
     /// one to classify each image against it.

@@ -129,7 +129,6 @@ struct Tile<'a> {
     /// The part that the network sees.
     rect: Rect,
     input: NormalInput,
-    channels: usize,
 }
 
 impl<'a> Tile<'a> {
@@ -146,7 +145,6 @@ impl<'a> Tile<'a> {
             kept,
             rect,
             input: NormalInput::new(mask_channel, inside.collect(), calibrated.lights(), read),
-            channels: NormalInput::channels(mask_channel),
         }
     }
 }
@@ -190,10 +188,10 @@ impl<'a> TileView<'a> {
             calibrated,
             rect,
             input,
-            channels,
             ..
         } = self.tile;
-        let shape = [images.len(), self.height, self.width, *channels];
+        let channels = input.channel_count();
+        let shape = [images.len(), self.height, self.width, channels];
         let mut values = vec![0.0; shape.iter().product()];
         let mut planes = vec![0.0; 3 * rect.area()];
         let outs = values.chunks_exact_mut(channels * self.width * self.height);

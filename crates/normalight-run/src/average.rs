@@ -1,31 +1,119 @@
 //! The exponential moving average of a network's numbers.
-use crate::named_tensors::NamedTensors;
+use crate::named_tensors::{NamedTensors, collect};
+use crate::optimiser::StepsOn;
+use burn::module::{Module, ModuleVisitor, Param};
+use burn::tensor::{Device, Tensor, TensorData};
+use std::collections::BTreeMap;
 
 /// Weights averaged over the last steps: they generalise better than those of any one step.
 #[derive(Debug)]
 pub struct Average {
     decay: f32,
-    /// By name.
-    pub values: NamedTensors,
+    values: Values,
+}
+
+/// By name, where the optimiser has its numbers.
+#[derive(Debug)]
+enum Values {
+    Host(NamedTensors),
+    Device(BTreeMap<String, Tensor<1>>),
 }
 
 impl Average {
-    /// `decay`: share of the average that a step leaves; 0 gives none.
-    pub fn new(decay: f32, values: NamedTensors) -> Option<Self> {
-        (decay > 0.0).then_some(Self { decay, values })
+    /// Begins with a network's numbers. `decay`: share of the average that a step leaves; 0 gives none. `network`: one
+    /// without gradients, through `valid()`.
+    pub fn new<M: Module>(decay: f32, place: StepsOn, network: &M) -> Option<Self> {
+        let values = || match place {
+            StepsOn::Host => Values::Host(collect(network)),
+            StepsOn::Device => Values::Device(tensors(network)),
+        };
+        (decay > 0.0).then(|| Self {
+            decay,
+            values: values(),
+        })
     }
 
     /// Takes in the numbers after step `step` (from 1). The first steps count more than the decay
-    /// says, so that the random start is forgotten quickly.
-    pub fn add(&mut self, step: usize, now: &NamedTensors) {
+    /// says, so that the random start is forgotten quickly. `network` as in [`Self::new`].
+    pub fn add<M: Module>(&mut self, step: usize, network: &M) {
         let share = (1.0 + step as f32) / (10.0 + step as f32);
         let kept = self.decay.min(share);
-        for (name, average) in &mut self.values {
-            let Some(now) = now.get(name) else { continue };
-            for (average, now) in average.iter_mut().zip(now) {
-                *average += (1.0 - kept) * (now - *average);
+        match &mut self.values {
+            Values::Host(averages) => blend(averages, &collect(network), kept),
+            Values::Device(averages) => {
+                for (name, now) in tensors(network) {
+                    if let Some(average) = averages.get_mut(&name) {
+                        *average = average.clone() + (now - average.clone()) * (1.0 - kept);
+                    }
+                }
             }
         }
+    }
+
+    /// The averages by name, on the host.
+    pub fn values(&self) -> NamedTensors {
+        match &self.values {
+            Values::Host(values) => values.clone(),
+            Values::Device(values) => {
+                let values = values.iter();
+                let host = values.map(|(name, one)| (name.clone(), crate::host(one.clone())));
+                host.collect()
+            }
+        }
+    }
+
+    /// Replaces the averages by those of a checkpoint. `device`: where the network is, without gradients.
+    pub fn restore(&mut self, values: NamedTensors, device: &Device) {
+        self.values = match self.values {
+            Values::Host(_) => Values::Host(values),
+            Values::Device(_) => {
+                let tensor = |(name, values): (String, Vec<f32>)| {
+                    let count = values.len();
+                    let data = TensorData::new(values, [count]);
+                    (name, Tensor::from_data(data, device))
+                };
+                Values::Device(values.into_iter().map(tensor).collect())
+            }
+        };
+    }
+}
+
+fn blend(averages: &mut NamedTensors, now: &NamedTensors, kept: f32) {
+    for (name, average) in averages {
+        let Some(now) = now.get(name) else { continue };
+        for (average, now) in average.iter_mut().zip(now) {
+            *average += (1.0 - kept) * (now - *average);
+        }
+    }
+}
+
+/// A network's numbers where they are, flat.
+fn tensors<M: Module>(network: &M) -> BTreeMap<String, Tensor<1>> {
+    let mut lister = Lister::default();
+    network.visit(&mut lister);
+    lister.found
+}
+
+#[derive(Default)]
+struct Lister {
+    path: Vec<String>,
+    found: BTreeMap<String, Tensor<1>>,
+}
+
+impl ModuleVisitor for Lister {
+    fn enter_module(&mut self, name: &str, _container: &str) {
+        self.path.push(name.to_owned());
+    }
+
+    fn exit_module(&mut self, _name: &str, _container: &str) {
+        self.path.pop();
+    }
+
+    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
+        let tensor = param.val().inner();
+        let count = tensor.shape().num_elements();
+        self.found
+            .insert(self.path.join("."), tensor.reshape([count]));
     }
 }
 
@@ -33,22 +121,33 @@ impl Average {
 mod tests {
     use super::*;
 
-    fn tensors(value: f32) -> NamedTensors {
-        NamedTensors::from([("a".to_owned(), vec![value])])
+    #[derive(Module, Debug)]
+    struct One {
+        a: Param<Tensor<1>>,
+    }
+
+    fn one(value: f32) -> One {
+        One {
+            a: Param::from_tensor(Tensor::from_floats([value], &Device::flex())),
+        }
     }
 
     #[test]
     fn it_follows_and_forgets_the_start() {
-        assert!(Average::new(0.0, tensors(1.0)).is_none());
-        let mut average = Average::new(0.999, tensors(100.0)).unwrap();
-        for step in 1..=300 {
-            average.add(step, &tensors(1.0));
+        for place in [StepsOn::Host, StepsOn::Device] {
+            assert!(Average::new(0.0, place, &one(1.0)).is_none());
+            let mut average = Average::new(0.999, place, &one(100.0)).unwrap();
+            for step in 1..=300 {
+                average.add(step, &one(1.0));
+            }
+            let value = average.values()["a"][0];
+            assert!((value - 1.0).abs() < 1e-3, "{value}");
+            // Later a step moves it by one part in a thousand; what comes from a checkpoint goes on.
+            let values = average.values();
+            average.restore(values, &Device::flex());
+            average.add(1_000_000, &one(2.0));
+            let moved = average.values()["a"][0] - value;
+            assert!((moved - 1e-3).abs() < 1e-4, "{moved}");
         }
-        let value = average.values["a"][0];
-        assert!((value - 1.0).abs() < 1e-3, "{value}");
-        // Later a step moves it by one part in a thousand.
-        average.add(1_000_000, &tensors(2.0));
-        let moved = average.values["a"][0] - value;
-        assert!((moved - 1e-3).abs() < 1e-4, "{moved}");
     }
 }

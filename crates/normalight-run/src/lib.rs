@@ -34,8 +34,8 @@ pub use learner::{Learner, StepOutcome, Validation};
 pub use loader::{BatchMaker, Batches};
 pub use named_tensors::{NamedTensors, collect, fill, host, put, scalar, take};
 pub use optimiser::{
-    Decay, DepthwiseRule, HostGradients, MuonRecipe, Optimiser, OptimiserKind, OptimiserRecipe,
-    Schedule, collect_gradients,
+    Decay, DepthwiseRule, DeviceGradients, HostGradients, MuonRecipe, Optimiser, OptimiserKind,
+    OptimiserRecipe, Schedule, StepGradients, StepsOn, collect_gradients,
 };
 pub use seeded::seeded;
 pub use session::{RunEvent, Session, run_job};

@@ -1,9 +1,10 @@
 //! Gradients of the architecture in the bi-level problem of DARTS (Liu et al. 2019): find the architecture that is best
 //! on validation data with the weights that are best for it on training data.
-use burn::module::{Module, ModuleMapper, Param};
+use burn::module::{Module, ModuleMapper, ModuleVisitor, Param, ParamId, list_param_ids};
 use burn::tensor::{Tensor, TensorData};
+use normalight_model::Relaxation;
 use normalight_run::collect_gradients;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// Length of the step of the finite difference, as in DARTS.
 const DIFFERENCE: f64 = 0.01;
@@ -11,9 +12,48 @@ const DIFFERENCE: f64 = 0.01;
 /// NamedTensorsF64 of a network by the names of its parts, in double precision.
 pub(super) type NamedTensorsF64 = BTreeMap<String, Vec<f64>>;
 
-/// Whether a parameter is one of the architecture, by its name.
-pub(super) fn is_alpha(name: &str) -> bool {
-    name.split('.').any(|part| part == "relaxation")
+/// The names of the architecture's parameters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Alpha(BTreeSet<String>);
+
+impl Alpha {
+    /// Those parameters of a network that its relaxation holds.
+    pub(super) fn of<M: Module>(network: &M, relaxation: &Relaxation) -> Self {
+        let mut namer = Namer {
+            wanted: list_param_ids(relaxation).into_iter().collect(),
+            path: Vec::new(),
+            found: BTreeSet::new(),
+        };
+        network.visit(&mut namer);
+        Self(namer.found)
+    }
+
+    pub(super) fn contains(&self, name: &str) -> bool {
+        self.0.contains(name)
+    }
+}
+
+/// Finds the names of some parameters.
+struct Namer {
+    wanted: HashSet<ParamId>,
+    path: Vec<String>,
+    found: BTreeSet<String>,
+}
+
+impl ModuleVisitor for Namer {
+    fn enter_module(&mut self, name: &str, _container: &str) {
+        self.path.push(name.to_owned());
+    }
+
+    fn exit_module(&mut self, _name: &str, _container: &str) {
+        self.path.pop();
+    }
+
+    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
+        if self.wanted.contains(&param.id) {
+            self.found.insert(self.path.join("."));
+        }
+    }
 }
 
 /// A loss and its gradient.
@@ -43,12 +83,16 @@ impl LossAndGradient {
 /// Gradient of the validation loss by the architecture at the weights as they are: first order.
 pub(super) fn first_order<M: Module>(
     network: &M,
+    alpha: &Alpha,
     loss: impl Fn(&M) -> Tensor<1>,
 ) -> LossAndGradient {
     // Nobody asks for the weights' gradients: that saves their share of the backward pass.
-    let network = network.clone().map(&mut Freezer::default());
+    let network = network.clone().map(&mut Freezer {
+        alpha,
+        path: Vec::new(),
+    });
     let loss = loss(&network);
-    LossAndGradient::of(&network, loss).only(is_alpha)
+    LossAndGradient::of(&network, loss).only(|name| alpha.contains(name))
 }
 
 /// Gradient by the architecture of the validation loss after one plain gradient step of the weights on training data,
@@ -56,11 +100,12 @@ pub(super) fn first_order<M: Module>(
 /// finite difference.
 pub(super) fn second_order<M: Module>(
     network: &M,
+    alpha: &Alpha,
     rate: f64,
     training: impl Fn(&M) -> Tensor<1>,
     validation: impl Fn(&M) -> Tensor<1>,
 ) -> LossAndGradient {
-    let is_weight = |name: &str| !is_alpha(name);
+    let is_weight = |name: &str| !alpha.contains(name);
     let step = LossAndGradient::of(network, training(network)).only(is_weight);
     let stepped = shifted(network, &step.gradient, -rate);
     let mut slope = LossAndGradient::of(&stepped, validation(&stepped));
@@ -71,7 +116,7 @@ pub(super) fn second_order<M: Module>(
         .flatten()
         .map(|value| value * value)
         .sum();
-    slope.gradient.retain(|name, _| is_alpha(name));
+    slope.gradient.retain(|name, _| alpha.contains(name));
     let length = square.sqrt();
     if length.is_finite() && length > 0.0 {
         let epsilon = DIFFERENCE / length;
@@ -80,7 +125,7 @@ pub(super) fn second_order<M: Module>(
             let factor = -rate / (2.0 * side);
             add(
                 &mut slope.gradient,
-                &first_order(&moved, &training).gradient,
+                &first_order(&moved, alpha, &training).gradient,
                 factor,
             );
         }
@@ -141,12 +186,12 @@ impl ModuleMapper for Shifter<'_> {
 }
 
 /// Stops gradients at everything but the architecture.
-#[derive(Default)]
-struct Freezer {
+struct Freezer<'a> {
+    alpha: &'a Alpha,
     path: Vec<String>,
 }
 
-impl ModuleMapper for Freezer {
+impl ModuleMapper for Freezer<'_> {
     fn enter_module(&mut self, name: &str, _container: &str) {
         self.path.push(name.to_owned());
     }
@@ -156,7 +201,7 @@ impl ModuleMapper for Freezer {
     }
 
     fn map_float<const D: usize>(&mut self, param: Param<Tensor<D>>) -> Param<Tensor<D>> {
-        if is_alpha(&self.path.join(".")) {
+        if self.alpha.contains(&self.path.join(".")) {
             return param;
         }
         param.set_require_grad(false)
@@ -217,12 +262,14 @@ mod tests {
     fn second_order_as_brute_force_says() {
         let device = Device::flex().autodiff();
         let network = Tiny::new(&device);
+        let alpha = Alpha(BTreeSet::from(["relaxation".to_owned()]));
         let [training, validation] = [5.0, 6.0].map(|seed| {
             let device = device.clone();
             move |network: &Tiny| network.loss(seed, &device)
         });
         let after_step = |network: &Tiny| -> f64 {
-            let step = LossAndGradient::of(network, training(network)).only(|name| !is_alpha(name));
+            let step =
+                LossAndGradient::of(network, training(network)).only(|name| !alpha.contains(name));
             let loss = validation(&shifted(network, &step.gradient, -RATE));
             loss.into_data().iter::<f64>().sum()
         };
@@ -242,15 +289,15 @@ mod tests {
             let off: Vec<f64> = found.iter().zip(&brute).map(|(a, b)| a - b).collect();
             length(&off) / length(&brute)
         };
-        let second = second_order(&network, RATE, &training, &validation);
+        let second = second_order(&network, &alpha, RATE, &training, &validation);
         assert_eq!(second.gradient.len(), 1);
         assert!(error(&second) < 1e-4, "{second:?}, {brute:?}");
         let loss = after_step(&network);
         assert!((second.loss - loss).abs() < 1e-12);
         // The first order leaves out what the weights' step does: it is another number here, and right for a rate of 0.
-        let first = first_order(&network, &validation);
+        let first = first_order(&network, &alpha, &validation);
         assert!(error(&first) > 0.05, "{first:?}, {brute:?}");
-        let none = second_order(&network, 0.0, &training, &validation);
+        let none = second_order(&network, &alpha, 0.0, &training, &validation);
         assert_eq!(none.gradient, first.gradient);
     }
 }

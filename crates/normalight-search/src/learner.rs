@@ -1,4 +1,4 @@
-use super::bilevel::{first_order, is_alpha, second_order};
+use super::bilevel::{Alpha, first_order, second_order};
 use super::budget::Costs;
 use super::derive::derive;
 use super::drawing::{cell_svg, weights_svg};
@@ -9,8 +9,8 @@ use burn::module::Module;
 use burn::tensor::{Device, Tensor};
 use normalight_model::{Cell, CellWeights, Genotypes, Operation, SearchSpace};
 use normalight_run::{
-    HostGradients, Learner, NamedTensors, Optimiser, OptimiserRecipe, StepOutcome, Validation,
-    collect, fill, put, scalar, seeded, take,
+    Learner, NamedTensors, Optimiser, OptimiserRecipe, StepGradients, StepOutcome, StepsOn,
+    Validation, collect, fill, put, scalar, seeded, take,
 };
 use normalight_synth::Sample;
 use normalight_train::{Batch, TrainError, first_scene};
@@ -32,6 +32,8 @@ pub(super) struct SearchLearner<'a, T: SearchTask> {
     /// The same with gradients.
     training: Device,
     network: T::Network,
+    /// Which of its parameters are the architecture's.
+    alpha: Alpha,
     /// Of the weights.
     weight_optimiser: Optimiser,
     /// Of the architecture.
@@ -49,6 +51,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
         task: T,
         recipe: &'a SearchRecipe,
         device: &'a Device,
+        steps_on: StepsOn,
     ) -> Result<Self, TrainError> {
         let training = device.clone().autodiff();
         let space = recipe.search.space();
@@ -56,6 +59,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
         let network = seeded(&training, recipe.training.seed, || {
             task.relaxed(&space, &training)
         })?;
+        let alpha = Alpha::of(&network, T::relaxation(&network));
         Ok(Self {
             task,
             recipe,
@@ -63,8 +67,10 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
             device,
             training,
             network,
-            weight_optimiser: Optimiser::default(),
-            alpha_optimiser: Optimiser::default(),
+            alpha,
+            weight_optimiser: Optimiser::new(steps_on),
+            // Few numbers, from gradients in double precision on the host.
+            alpha_optimiser: Optimiser::new(StepsOn::Host),
             alpha_recipe: recipe.search.alpha.optimiser(),
             costs,
             history: History::default(),
@@ -98,7 +104,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
     }
 
     /// Loss of the architecture and its gradient.
-    fn alpha_gradients(&self, batch: &SplitBatch, step: usize) -> (f32, HostGradients) {
+    fn alpha_gradients(&self, batch: &SplitBatch, step: usize) -> (f32, StepGradients) {
         let validation = |network: &T::Network| {
             let loss = self.loss(network, &batch.validation);
             match &self.costs {
@@ -107,11 +113,11 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
             }
         };
         let slope = match self.recipe.search.order {
-            Order::First => first_order(&self.network, validation),
+            Order::First => first_order(&self.network, &self.alpha, validation),
             Order::Second => {
                 let training = |network: &T::Network| self.loss(network, &batch.training);
                 let rate = f64::from(self.rate(step));
-                second_order(&self.network, rate, training, validation)
+                second_order(&self.network, &self.alpha, rate, training, validation)
             }
         };
         let gradient = slope.gradient.into_iter();
@@ -119,7 +125,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
             .map(|(name, values)| (name, values.iter().map(|&value| value as f32).collect()));
         (
             slope.loss as f32,
-            HostGradients::from_values(gradient.collect()),
+            StepGradients::from_values(gradient.collect()),
         )
     }
 
@@ -128,7 +134,7 @@ impl<'a, T: SearchTask> SearchLearner<'a, T> {
         let (loss, gradients) = self.alpha_gradients(batch, step);
         let learned = StepOutcome {
             loss,
-            gradient_norm: gradients.norm,
+            gradient_norm: gradients.norm(),
         };
         if learned.failure().is_none() {
             let rate = self.alpha_recipe.learning_rate;
@@ -207,10 +213,11 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
         }
         let loss = self.loss(&self.network, &batch.training);
         let gradients = loss.backward();
-        let gradients = HostGradients::new(&self.network, &gradients).only(|name| !is_alpha(name));
+        let gradients = self.weight_optimiser.gradients(&self.network, &gradients);
+        let gradients = gradients.only(|name| !self.alpha.contains(name));
         let learned = StepOutcome {
             loss: scalar(loss),
-            gradient_norm: gradients.norm,
+            gradient_norm: gradients.norm(),
         };
         if learned.failure().is_some() {
             (self.network, self.alpha_optimiser) = before;
@@ -270,8 +277,9 @@ impl<T: SearchTask> Learner for SearchLearner<'_, T> {
             return Err(format!("weight {name} is of another network"));
         }
         let alpha_steps = step.saturating_sub(self.recipe.search.warm_up);
-        self.alpha_optimiser = Optimiser::load(&mut take(&mut state, ALPHA), alpha_steps)?;
-        self.weight_optimiser = Optimiser::load(&mut state, step)?;
+        self.alpha_optimiser
+            .load(&mut take(&mut state, ALPHA), alpha_steps, self.device)?;
+        self.weight_optimiser.load(&mut state, step, self.device)?;
         self.history = History::load(&mut state, &self.space, T::CELLS.len())?;
         Ok(())
     }

@@ -5,7 +5,9 @@ use super::samples::HalvesMaker;
 use super::{SearchRecipe, SearchTask};
 use burn::tensor::Device;
 use normalight_run::RunError;
-use normalight_run::{Learner, LoopSchedule, RunEvent, RunSpec, Session, Summary, load, run_job};
+use normalight_run::{
+    Learner, LoopSchedule, RunEvent, RunSpec, Session, StepsOn, Summary, load, run_job,
+};
 use normalight_train::{FREE, LightTask, NetworkRecipe, NormalTask, TrainError, threads};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -19,6 +21,8 @@ pub struct SearchRun {
     pub folder: PathBuf,
     /// Continue from the folder's checkpoint; without one a fresh start.
     pub resume: bool,
+    /// Where the steps of the weights are computed.
+    pub steps_on: StepsOn,
     /// The command line that asks for it, for the card.
     pub command: String,
 }
@@ -77,7 +81,7 @@ fn derived<T: SearchTask>(
     folder: &Path,
     device: &Device,
 ) -> Result<Vec<(String, Vec<u8>)>, TrainError> {
-    let mut learner = SearchLearner::new(task, recipe, device)?;
+    let mut learner = SearchLearner::new(task, recipe, device, StepsOn::Host)?;
     let loaded = load(folder)?;
     learner
         .restore(loaded.tensors, loaded.training_state.step)
@@ -100,7 +104,7 @@ fn search_network<T: SearchTask>(
     observe: &mut impl FnMut(RunEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
     let recipe = &run.recipe;
-    let mut learner = SearchLearner::new(task, recipe, device)?;
+    let mut learner = SearchLearner::new(task, recipe, device, run.steps_on)?;
     let training = &recipe.training;
     let spec = RunSpec {
         folder: run.folder.clone(),

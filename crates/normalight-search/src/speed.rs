@@ -3,7 +3,7 @@ use super::learner::SearchLearner;
 use super::samples::{HalvesMaker, SplitBatch};
 use super::{SearchRecipe, SearchTask};
 use burn::tensor::Device;
-use normalight_run::{BatchMaker, Learner};
+use normalight_run::{BatchMaker, Learner, StepsOn};
 use normalight_train::{LightTask, NetworkRecipe, NormalTask, TrainError};
 use std::time::{Duration, Instant};
 
@@ -32,7 +32,7 @@ impl<'a> SearchStep<'a> {
         recipe: &'a SearchRecipe,
         device: &'a Device,
     ) -> Result<Self, TrainError> {
-        let mut learner = SearchLearner::new(task.clone(), recipe, device)?;
+        let mut learner = SearchLearner::new(task.clone(), recipe, device, StepsOn::Host)?;
         let (mut maker, _) = HalvesMaker::open(&task, &recipe.training, device)?;
         let start = Instant::now();
         let batches: Vec<SplitBatch> = (0..maker.together())

@@ -6,7 +6,7 @@ mod common;
 use burn::tensor::Device;
 use common::{LIGHT, NORMAL, contents, text, whole};
 use normalight_model::Genotypes;
-use normalight_run::{RunEvent, RunState, Summary};
+use normalight_run::{RunEvent, RunState, StepsOn, Summary};
 use normalight_search::{SearchRecipe, SearchRun, derive_again, search};
 use normalight_train::{TrainError, TrainRecipe};
 use std::ops::ControlFlow;
@@ -35,6 +35,7 @@ fn run(
         recipe: recipe.clone(),
         folder: folder.to_owned(),
         resume,
+        steps_on: StepsOn::Host,
         command: "normalight search".to_owned(),
     };
     let mut losses = Vec::new();

@@ -192,7 +192,7 @@ mod tests {
     use crate::{NormalSettings, TrainRecipe};
     use normalight_model::{CellNormal, Genotypes, NormalBody, Upsampling};
     use normalight_run::host;
-    use normalight_run::{BatchMaker, HostGradients, Optimiser};
+    use normalight_run::{BatchMaker, Optimiser, StepGradients, StepsOn};
     use std::sync::Arc;
 
     /// A main device, and another of a different kind: what belongs to one cannot be used on the other.
@@ -255,7 +255,7 @@ mod tests {
         // Weights are drawn when first wanted; a clone made before would draw its own.
         let start = values(&alone, None).concat();
         let mut together = alone.clone();
-        let mut optimisers = [Optimiser::default(), Optimiser::default()];
+        let mut optimisers = [(); 2].map(|()| Optimiser::new(StepsOn::Host));
         for batch in &batches(task, recipe) {
             let loss = task.loss(&alone, batch, main);
             let gradients = loss.backward();
@@ -270,7 +270,7 @@ mod tests {
                 assert!(apart < 1e-2, "a gradient is off by {apart} of its length");
             }
             let [own, sum] = [(&alone, &gradients), (&together, &summed)]
-                .map(|(network, gradients)| HostGradients::new(network, gradients));
+                .map(|(network, gradients)| StepGradients::new(StepsOn::Host, network, gradients));
             alone = optimisers[0].step(alone, own, 1e-3, &recipe.optimiser);
             together = optimisers[1].step(together, sum, 1e-3, &recipe.optimiser);
         }

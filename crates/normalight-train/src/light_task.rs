@@ -3,11 +3,10 @@ use crate::init::{check_start, init_error};
 use crate::task::Task;
 use crate::{LightSettings, NetworkRecipe, TrainError};
 use burn::tensor::{Device, Tensor, TensorData, activation};
-use normalight_core::{Decoding, Light, LightBins, intensity_error, mean_light_error};
+use normalight_core::{Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
 use normalight_model::{
-    LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, NoopObserver, Quality,
-    Weights,
+    LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, NoopObserver, Weights,
 };
 use normalight_run::{Validation, collect, fill};
 use normalight_synth::{Framing, Sample};
@@ -169,14 +168,14 @@ impl Task for LightTask {
             network: network.clone(),
             device: device.clone(),
         };
-        let options = LightOptions {
-            decoding: Decoding::SoftArgmax,
-            quality: Quality::Fast,
-        };
         for sample in objects {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
-            let lights =
-                pollster::block_on(loaded.estimate(&stack, &mask, options, &mut NoopObserver))?;
+            let lights = pollster::block_on(loaded.estimate(
+                &stack,
+                &mask,
+                LightOptions::FAST,
+                &mut NoopObserver,
+            ))?;
             sum += mean_light_error(&lights, &sample.lights)?;
             intensity += intensity_error(&lights, &sample.lights)?;
         }

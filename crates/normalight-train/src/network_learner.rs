@@ -3,13 +3,13 @@ use crate::batch::Batch;
 use crate::data_parallel::Replicas;
 use crate::samples::first_scene;
 use crate::task::Task;
-use crate::{TrainError, TrainRecipe};
+use crate::{Devices, TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::Device;
 use normalight_model::Weights;
 use normalight_run::{
-    Average, HostGradients, Learner, NamedTensors, Optimiser, StepOutcome, Validation, collect,
-    fill, put, scalar, seeded, take,
+    Average, Learner, NamedTensors, Optimiser, StepOutcome, Validation, collect, fill, put, scalar,
+    seeded, take,
 };
 use normalight_synth::Sample;
 
@@ -38,20 +38,18 @@ pub struct NetworkLearner<'a, T: Task> {
 }
 
 impl<'a, T: Task> NetworkLearner<'a, T> {
-    /// A network with random weights of the recipe's seed. `device` and `others`: plain ones.
+    /// A network with random weights of the recipe's seed. `devices`: plain ones.
     ///
     /// # Errors
     /// An architecture that breaks a rule.
-    pub fn new(
-        task: T,
-        recipe: &'a TrainRecipe,
-        device: &'a Device,
-        others: &[Device],
-    ) -> Result<Self, TrainError> {
+    pub fn new(task: T, recipe: &'a TrainRecipe, devices: Devices<'a>) -> Result<Self, TrainError> {
+        let device = devices.main;
         let training = device.clone().autodiff();
         let network = seeded(&training, recipe.seed, || task.network(&training))?;
-        let average = Average::new(recipe.optimiser.average, collect(&network.valid()));
-        let others: Vec<Device> = others
+        let steps_on = devices.steps_on;
+        let average = Average::new(recipe.optimiser.average, steps_on, &network.valid());
+        let others: Vec<Device> = devices
+            .others
             .iter()
             .map(|device| device.clone().autodiff())
             .collect();
@@ -63,7 +61,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
             training,
             network,
             replicas,
-            optimiser: Optimiser::default(),
+            optimiser: Optimiser::new(steps_on),
             average,
             objects: Vec::new(),
         })
@@ -73,8 +71,8 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
     pub fn start_from(&mut self, weights: &Weights) -> Result<(), TrainError> {
         let network = self.network.clone();
         self.network = self.task.start_from(network, weights, self.device)?;
-        let values = collect(&self.network.valid());
-        self.average = Average::new(self.recipe.optimiser.average, values);
+        let decay = self.recipe.optimiser.average;
+        self.average = Average::new(decay, self.optimiser.place(), &self.network.valid());
         Ok(())
     }
 
@@ -88,7 +86,7 @@ impl<'a, T: Task> NetworkLearner<'a, T> {
         let network = self.network.valid();
         match &self.average {
             None => network,
-            Some(average) => fill(network, &mut average.values.clone())
+            Some(average) => fill(network, &mut average.values())
                 .expect("the average holds what the network holds"),
         }
     }
@@ -107,10 +105,10 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
                 (scalar(loss), gradients)
             }
         };
-        let gradients = HostGradients::new(&self.network, &gradients);
+        let gradients = self.optimiser.gradients(&self.network, &gradients);
         let learned = StepOutcome {
             loss,
-            gradient_norm: gradients.norm,
+            gradient_norm: gradients.norm(),
         };
         if learned.failure().is_none() {
             let optimiser = &self.recipe.optimiser;
@@ -119,7 +117,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
                 .optimiser
                 .step(network, gradients, self.rate(step), optimiser);
             if let Some(average) = &mut self.average {
-                average.add(step + 1, &collect(&self.network.valid()));
+                average.add(step + 1, &self.network.valid());
             }
         }
         Ok(learned)
@@ -141,7 +139,7 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
         put(&mut state, WEIGHT, collect(&self.network.valid()));
         self.optimiser.save(&mut state);
         if let Some(average) = &self.average {
-            put(&mut state, AVERAGE, average.values.clone());
+            put(&mut state, AVERAGE, average.values());
         }
         state
     }
@@ -152,11 +150,12 @@ impl<T: Task> Learner for NetworkLearner<'_, T> {
         if let Some(name) = weights.keys().next() {
             return Err(format!("weight {name} is of another network"));
         }
-        self.optimiser = Optimiser::load(&mut state, step)?;
+        self.optimiser.load(&mut state, step, self.device)?;
         if let Some(average) = &mut self.average {
-            average.values = take(&mut state, AVERAGE);
-            fill(self.network.valid(), &mut average.values.clone())
+            let values = take(&mut state, AVERAGE);
+            fill(self.network.valid(), &mut values.clone())
                 .map_err(|reason| format!("average: {reason}"))?;
+            average.restore(values, self.device);
         }
         Ok(())
     }

@@ -8,8 +8,8 @@ use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{CalibratedStack, Light, normal_error};
 use normalight_kernels::channels_first;
 use normalight_model::{
-    AuxiliaryTower, LoadedNetwork, NoopObserver, NormalBody, NormalInput, NormalNetwork,
-    PipelineStage, Quality, Weights,
+    AuxiliaryTower, LoadedNetwork, LoadedNormalNetwork, NoopObserver, NormalBody, NormalInput,
+    NormalNetwork, PipelineStage, Quality, Weights,
 };
 use normalight_run::{Validation, collect, fill};
 use normalight_synth::{Framing, Sample};
@@ -29,6 +29,15 @@ impl NormalTask {
     pub fn new(settings: &NormalSettings) -> Self {
         Self {
             settings: settings.clone(),
+        }
+    }
+
+    /// What is kept of a training, as the pipeline uses it.
+    fn loaded(&self, training: &NormalTraining, device: &Device) -> LoadedNormalNetwork {
+        LoadedNetwork {
+            architecture: self.settings.architecture.clone(),
+            network: training.network.clone(),
+            device: device.clone(),
         }
     }
 
@@ -153,11 +162,7 @@ impl Task for NormalTask {
     ) -> Result<Validation, TrainError> {
         let mut sum = 0.0;
         let mut shares = [0.0; 3];
-        let loaded = LoadedNetwork {
-            architecture: self.settings.architecture.clone(),
-            network: training.network.clone(),
-            device: device.clone(),
-        };
+        let loaded = self.loaded(training, device);
         for (index, sample) in objects.iter().enumerate() {
             let (stack, mask) = (sample.to_stack()?, sample.to_mask());
             let lights = disturbed(&self.settings, &sample.lights, index as u64);
@@ -259,11 +264,7 @@ mod tests {
             let (stack, mask) = (sample.to_stack().unwrap(), sample.to_mask());
             let lights = mixed(&settings, &sample.lights, None, number);
             let calibrated = CalibratedStack::new(&stack, &mask, &lights).unwrap();
-            let loaded = LoadedNetwork {
-                architecture: settings.architecture.clone(),
-                network: training.network.clone(),
-                device: device.clone(),
-            };
+            let loaded = task.loaded(&training, &device);
             let views = Quality::Fast.views();
             let normals = pollster::block_on(loaded.estimate(
                 calibrated,

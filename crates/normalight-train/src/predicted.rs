@@ -2,10 +2,8 @@
 use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::tensor::Device;
 use glam::Vec3;
-use normalight_core::{Decoding, Light};
-use normalight_model::{
-    LightOptions, LoadedLightNetwork, NoopObserver, Quality, Weights, default_weights,
-};
+use normalight_core::Light;
+use normalight_model::{LightOptions, LoadedLightNetwork, NoopObserver, Weights, default_weights};
 use normalight_run::RunError;
 use normalight_synth::{Sample, Scene};
 use std::path::Path;
@@ -80,12 +78,12 @@ impl Predictor {
             Some(network) => network,
             none => none.insert(self.weights.light_network(&self.device)?),
         };
-        let options = LightOptions {
-            decoding: Decoding::SoftArgmax,
-            quality: Quality::Fast,
-        };
-        let predicted =
-            pollster::block_on(network.estimate(&stack, &mask, options, &mut NoopObserver))?;
+        let predicted = pollster::block_on(network.estimate(
+            &stack,
+            &mask,
+            LightOptions::FAST,
+            &mut NoopObserver,
+        ))?;
         Ok(Prediction::new(&predicted, &sample.lights))
     }
 }

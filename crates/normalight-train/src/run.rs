@@ -10,7 +10,7 @@ use crate::source::Source;
 use crate::task::Task;
 use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::tensor::Device;
-use normalight_run::{LoopSchedule, RunEvent, RunSpec, Session, Summary, run_job};
+use normalight_run::{LoopSchedule, RunEvent, RunSpec, Session, StepsOn, Summary, run_job};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -44,11 +44,17 @@ pub struct Devices<'a> {
     pub main: &'a Device,
     /// Compute the gradients of a part of every batch.
     pub others: &'a [Device],
+    /// Where steps are computed.
+    pub steps_on: StepsOn,
 }
 
 impl<'a> From<&'a Device> for Devices<'a> {
     fn from(main: &'a Device) -> Self {
-        Self { main, others: &[] }
+        Self {
+            main,
+            others: &[],
+            steps_on: StepsOn::Host,
+        }
     }
 }
 
@@ -115,7 +121,7 @@ where
     // Before anything is written: a file that the recipe names may be missing.
     let source = Arc::new(Source::open(recipe, T::FRAMING)?);
     let predictor = Predictor::of(recipe, devices.main)?;
-    let mut learner = NetworkLearner::new(task.clone(), recipe, devices.main, devices.others)?;
+    let mut learner = NetworkLearner::new(task.clone(), recipe, *devices)?;
     session.begin(&mut learner, |learner| {
         let Some(init) = &recipe.init else {
             return Ok(format!(

@@ -6,7 +6,7 @@ use crate::task::Task;
 use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::module::Module;
 use burn::tensor::Gradients;
-use normalight_run::{BatchMaker, HostGradients, Optimiser, OptimiserRecipe, RunError};
+use normalight_run::{BatchMaker, Optimiser, OptimiserRecipe, RunError, StepsOn};
 use std::sync::Arc;
 
 /// The optimiser as training uses it.
@@ -20,14 +20,14 @@ impl OptimiserStep {
     /// Before its first step.
     pub fn new(recipe: OptimiserRecipe) -> Self {
         Self {
-            optimiser: Optimiser::default(),
+            optimiser: Optimiser::new(StepsOn::Host),
             recipe,
         }
     }
 
     /// Gradients to the host, clipping, the step, weights back to the device.
     pub fn take<M: Module>(&mut self, network: M, gradients: &Gradients) -> M {
-        let gradients = HostGradients::new(&network, gradients);
+        let gradients = self.optimiser.gradients(&network, gradients);
         let rate = self.recipe.learning_rate;
         self.optimiser.step(network, gradients, rate, &self.recipe)
     }

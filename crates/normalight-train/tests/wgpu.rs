@@ -2,7 +2,8 @@
 
 use burn::tensor::{Device, DeviceKind};
 use normalight_run::RunEvent;
-use normalight_train::{TrainRecipe, TrainRun, train};
+use normalight_run::StepsOn;
+use normalight_train::{Devices, TrainRecipe, TrainRun, train};
 use safetensors::SafeTensors;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -35,7 +36,7 @@ fn software_gpu() -> Option<Device> {
 fn run(
     folder: &Path,
     (network, size, optimiser): (&str, usize, &str),
-    device: &Device,
+    devices: Devices<'_>,
     until: usize,
 ) -> Vec<f32> {
     let text = format!(
@@ -50,7 +51,7 @@ fn run(
         command: String::new(),
     };
     let mut losses = Vec::new();
-    train(&run, device, |event| {
+    train(&run, devices, |event| {
         let RunEvent::Step(report) = event else {
             return ControlFlow::Continue(());
         };
@@ -100,13 +101,19 @@ fn a_software_gpu_trains_like_the_cpu() {
         let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
         // Every backend draws other random weights: both go on from one step on the CPU. The
         // batches of the steps after it are the same whoever asks.
-        run(here.path(), case, &cpu, 1);
+        run(here.path(), case, (&cpu).into(), 1);
         for file in ["checkpoint.safetensors", "recipe.toml"] {
             std::fs::copy(here.path().join(file), there.path().join(file)).unwrap();
         }
         let start = weights(here.path());
-        let expected = run(here.path(), case, &cpu, 5);
-        let found = run(there.path(), case, &gpu, 5);
+        let expected = run(here.path(), case, (&cpu).into(), 5);
+        // Nor do steps on the device take another way than those on the host.
+        let devices = Devices {
+            main: &gpu,
+            others: &[],
+            steps_on: StepsOn::Device,
+        };
+        let found = run(there.path(), case, devices, 5);
         assert_eq!((expected.len(), found.len()), (4, 4));
         for (found, expected) in found.iter().zip(&expected) {
             let apart = (found - expected).abs() / expected.abs();

@@ -20,6 +20,11 @@ impl NormalInput {
         6 + mask_channel as usize
     }
 
+    /// Channels of what it encodes.
+    pub fn channel_count(&self) -> usize {
+        Self::channels(self.mask_channel)
+    }
+
     /// Looks once at every image.
     ///
     /// # Shapes
@@ -76,7 +81,7 @@ impl NormalInput {
         out: &mut [f32],
     ) {
         let area = self.inside.len();
-        let channels = Self::channels(self.mask_channel);
+        let channels = self.channel_count();
         let direction = light.direction.to_array();
         for pixel in out.chunks_exact_mut(channels) {
             pixel[3..6].copy_from_slice(&direction);

@@ -1,47 +1,96 @@
 //! Adam (Kingma & Ba 2015) on one tensor, with either kind of weight decay.
-use super::recipe::{Decay, OptimiserRecipe};
+use super::place::StepSettings;
+use super::recipe::Decay;
+use burn::tensor::Tensor;
 
 /// One step of one tensor.
-pub(super) struct AdamStep {
+pub(super) struct AdamStep<'a> {
+    pub(super) settings: StepSettings<'a>,
     /// Number of this step, from 1.
     pub(super) step: i32,
-    pub(super) rate: f32,
-    /// What clipping makes of the gradient.
-    pub(super) scale: f32,
     /// Biases and normalisation are none.
     pub(super) is_kernel: bool,
 }
 
-impl AdamStep {
+/// The factors of a step.
+struct Factors {
+    /// Learning rate over the bias correction of the first moment.
+    rate: f32,
+    /// Bias correction of the second moment.
+    correction: f32,
+    /// Share of the weight that its gradient gets.
+    coupled: f32,
+    /// Share of the weight that stays.
+    kept: f32,
+}
+
+impl AdamStep<'_> {
+    fn factors(&self) -> Factors {
+        let StepSettings { recipe, rate, .. } = self.settings;
+        let [beta_1, beta_2] = recipe.betas;
+        let (coupled, kept) = match recipe.decay {
+            Decay::Coupled => (recipe.weight_decay, 1.0),
+            Decay::Decoupled if self.is_kernel => (0.0, 1.0 - rate * recipe.weight_decay),
+            Decay::Decoupled => (0.0, 1.0),
+        };
+        Factors {
+            rate: rate / (1.0 - beta_1.powi(self.step)),
+            correction: 1.0 / (1.0 - beta_2.powi(self.step)),
+            coupled,
+            kept,
+        }
+    }
+
+    /// On the host.
     pub(super) fn apply(
         &self,
-        recipe: &OptimiserRecipe,
         weights: &mut [f32],
         gradient: &[f32],
         [first, second]: &mut [Vec<f32>; 2],
     ) {
+        let StepSettings { recipe, scale, .. } = self.settings;
         let [beta_1, beta_2] = recipe.betas;
-        let rate = self.rate / (1.0 - beta_1.powi(self.step));
-        let correction = 1.0 / (1.0 - beta_2.powi(self.step));
-        let (coupled, kept) = match recipe.decay {
-            Decay::Coupled => (recipe.weight_decay, 1.0),
-            Decay::Decoupled if self.is_kernel => (0.0, 1.0 - self.rate * recipe.weight_decay),
-            Decay::Decoupled => (0.0, 1.0),
-        };
+        let Factors {
+            rate,
+            correction,
+            coupled,
+            kept,
+        } = self.factors();
         for (((weight, gradient), first), second) in
             weights.iter_mut().zip(gradient).zip(first).zip(second)
         {
-            let gradient = gradient * self.scale + coupled * *weight;
+            let gradient = gradient * scale + coupled * *weight;
             *first += (1.0 - beta_1) * (gradient - *first);
             *second += (1.0 - beta_2) * (gradient * gradient - *second);
             *weight *= kept;
             *weight -= rate * *first / ((*second * correction).sqrt() + recipe.epsilon);
         }
     }
+
+    /// The same on a device; gives the new weights.
+    pub(super) fn apply_on_device(
+        &self,
+        weights: Tensor<1>,
+        gradient: &Tensor<1>,
+        [first, second]: &mut [Tensor<1>; 2],
+    ) -> Tensor<1> {
+        let StepSettings { recipe, scale, .. } = self.settings;
+        let [beta_1, beta_2] = recipe.betas;
+        let factors = self.factors();
+        let mut gradient = gradient.clone() * scale;
+        if factors.coupled != 0.0 {
+            gradient = gradient + weights.clone() * factors.coupled;
+        }
+        *first = first.clone() * beta_1 + gradient.clone() * (1.0 - beta_1);
+        *second = second.clone() * beta_2 + gradient.clone() * gradient * (1.0 - beta_2);
+        let root = (second.clone() * factors.correction).sqrt() + recipe.epsilon;
+        weights * factors.kept - first.clone() * factors.rate / root
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::recipe::OptimiserRecipe;
     use super::*;
 
     /// Two steps on one weight of 1 with the gradients 0.5 and -0.4, rate 0.01, betas 0.5 and 0.999:
@@ -77,12 +126,15 @@ mod tests {
             // The second gradient was clipped to half its length before.
             for (step, gradient, scale) in [(1, 0.5, 1.0), (2, -0.8, 0.5)] {
                 let update = AdamStep {
+                    settings: StepSettings {
+                        recipe: &recipe,
+                        rate: 0.01,
+                        scale,
+                    },
                     step,
-                    rate: 0.01,
-                    scale,
                     is_kernel: true,
                 };
-                update.apply(&recipe, &mut weights, &[gradient], &mut moments);
+                update.apply(&mut weights, &[gradient], &mut moments);
             }
             let error = f64::from(weights[0]) - expected(decay);
             assert!(error.abs() < 1e-6, "{decay:?}: {error}");
@@ -99,12 +151,15 @@ mod tests {
         for (is_kernel, expected) in [(true, 0.95), (false, 1.0)] {
             let mut weights = [1.0];
             let update = AdamStep {
+                settings: StepSettings {
+                    recipe: &recipe,
+                    rate: 0.1,
+                    scale: 1.0,
+                },
                 step: 1,
-                rate: 0.1,
-                scale: 1.0,
                 is_kernel,
             };
-            update.apply(&recipe, &mut weights, &[0.0], &mut [vec![0.0], vec![0.0]]);
+            update.apply(&mut weights, &[0.0], &mut [vec![0.0], vec![0.0]]);
             assert_eq!(weights, [expected]);
         }
     }

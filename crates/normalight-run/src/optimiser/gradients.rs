@@ -1,43 +1,93 @@
-//! The gradients of a network on the host.
+//! The gradients of a step, gathered by the names of the weights.
+use super::StepsOn;
+use super::place::{OnDevice, OnHost, Place};
+use super::state::Collected;
 use crate::named_tensors::{NamedTensors, host};
 use burn::module::{Module, ModuleVisitor, Param};
 use burn::tensor::{Element, Gradients, Tensor};
 use std::collections::BTreeMap;
 
-/// Gradients by the names of the weights.
-pub struct HostGradients {
-    pub(super) values: NamedTensors,
-    /// Norm over all weights.
-    pub norm: f32,
+/// Gradients by the names of the weights, where the optimiser wants them.
+#[derive(Debug, Clone)]
+pub enum StepGradients {
+    /// On the host.
+    Host(HostGradients),
+    /// On the network's device.
+    Device(DeviceGradients),
 }
 
-impl HostGradients {
+/// Gradients on the host.
+#[derive(Debug, Clone)]
+pub struct HostGradients(pub(super) Collected<OnHost>);
+
+/// Gradients on a device.
+#[derive(Debug, Clone)]
+pub struct DeviceGradients(pub(super) Collected<OnDevice>);
+
+impl StepGradients {
     /// Of every weight of a network that has one.
-    pub fn new<M: Module>(network: &M, gradients: &Gradients) -> Self {
-        Self::from_values(collect_gradients(network, gradients))
+    pub fn new<M: Module>(place: StepsOn, network: &M, gradients: &Gradients) -> Self {
+        match place {
+            StepsOn::Host => Self::Host(HostGradients(gathered(network, gradients))),
+            StepsOn::Device => Self::Device(DeviceGradients(gathered(network, gradients))),
+        }
+    }
+
+    /// Of values by name, for an optimiser on the host.
+    pub fn from_values(values: NamedTensors) -> Self {
+        Self::Host(HostGradients(Collected::new(values)))
     }
 
     /// The gradients of those weights for which `wanted` holds.
-    pub fn only(mut self, wanted: impl Fn(&str) -> bool) -> Self {
-        self.values.retain(|name, _| wanted(name));
-        Self::from_values(self.values)
+    pub fn only(self, wanted: impl Fn(&str) -> bool) -> Self {
+        match self {
+            Self::Host(HostGradients(all)) => Self::Host(HostGradients(all.only(wanted))),
+            Self::Device(DeviceGradients(all)) => Self::Device(DeviceGradients(all.only(wanted))),
+        }
     }
 
-    /// Of values by name.
-    pub fn from_values(values: NamedTensors) -> Self {
-        let square: f64 = values
-            .values()
-            .flatten()
-            .map(|&value| f64::from(value).powi(2))
-            .sum();
-        Self {
-            values,
-            norm: square.sqrt() as f32,
+    /// Norm over all weights.
+    pub fn norm(&self) -> f32 {
+        match self {
+            Self::Host(gradients) => gradients.0.norm,
+            Self::Device(gradients) => gradients.0.norm,
         }
     }
 }
 
-/// Reads the gradient of every weight that has one to the host, by the weights' names.
+fn gathered<M: Module, P: Place>(network: &M, gradients: &Gradients) -> Collected<P> {
+    let mut gatherer = Gatherer::<P> {
+        gradients,
+        path: Vec::new(),
+        found: BTreeMap::new(),
+    };
+    network.visit(&mut gatherer);
+    Collected::new(gatherer.found)
+}
+
+struct Gatherer<'a, P: Place> {
+    gradients: &'a Gradients,
+    path: Vec<String>,
+    found: BTreeMap<String, P::Numbers>,
+}
+
+impl<P: Place> ModuleVisitor for Gatherer<'_, P> {
+    fn enter_module(&mut self, name: &str, _container: &str) {
+        self.path.push(name.to_owned());
+    }
+
+    fn exit_module(&mut self, _name: &str, _container: &str) {
+        self.path.pop();
+    }
+
+    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
+        if let Some(gradient) = param.val().grad(self.gradients) {
+            self.found.insert(self.path.join("."), P::numbers(gradient));
+        }
+    }
+}
+
+/// Reads the gradient of every weight that has one to the host, by the weights' names, in either precision.
 pub fn collect_gradients<M: Module, E: Element>(
     network: &M,
     gradients: &Gradients,

@@ -1,6 +1,7 @@
 //! Muon (Jordan et al. 2024, "Muon: an optimizer for hidden layers in neural networks") on one matrix: gradients with
 //! momentum, made orthogonal, so that every direction of a layer's input moves at the same pace.
-use super::recipe::{Decay, DepthwiseRule, MuonRecipe, OptimiserRecipe};
+use super::place::StepSettings;
+use super::recipe::{Decay, DepthwiseRule, MuonRecipe};
 use crate::named_tensors::host;
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_kernels::orthogonalised;
@@ -55,44 +56,87 @@ impl Shape {
     }
 }
 
+/// What the length of an orthogonal update is multiplied by, for a matrix of so many inputs and outputs.
+fn length([inputs, outputs]: [usize; 2]) -> f32 {
+    (outputs as f32 / inputs as f32).max(1.0).sqrt()
+}
+
 /// One step of one tensor.
-pub(super) struct MuonStep {
-    pub(super) rate: f32,
-    /// What clipping makes of the gradient.
-    pub(super) scale: f32,
+pub(super) struct MuonStep<'a> {
+    pub(super) settings: StepSettings<'a>,
     pub(super) shape: Shape,
     /// Where matrices are multiplied.
     pub(super) device: Device,
 }
 
-impl MuonStep {
-    pub(super) fn apply(
-        &self,
-        recipe: &OptimiserRecipe,
-        weights: &mut [f32],
-        gradient: &[f32],
-        momentum: &mut [f32],
-    ) {
-        let beta = recipe.muon.momentum;
-        let (coupled, kept) = match recipe.decay {
+impl MuonStep<'_> {
+    /// Share of a weight that its gradient gets, and share that stays.
+    fn decay(&self) -> (f32, f32) {
+        let StepSettings { recipe, rate, .. } = self.settings;
+        match recipe.decay {
             Decay::Coupled => (recipe.weight_decay, 1.0),
-            Decay::Decoupled => (0.0, 1.0 - self.rate * recipe.weight_decay),
-        };
+            Decay::Decoupled => (0.0, 1.0 - rate * recipe.weight_decay),
+        }
+    }
+
+    /// On the host.
+    pub(super) fn apply(&self, weights: &mut [f32], gradient: &[f32], momentum: &mut [f32]) {
+        let StepSettings {
+            recipe,
+            rate,
+            scale,
+        } = self.settings;
+        let beta = recipe.muon.momentum;
+        let (coupled, kept) = self.decay();
         // Nesterov's form: the gradient as the momentum will see it next.
         let ahead: Vec<f32> = gradient
             .iter()
             .zip(momentum)
             .zip(&*weights)
             .map(|((gradient, momentum), weight)| {
-                let gradient = gradient * self.scale + coupled * weight;
+                let gradient = gradient * scale + coupled * weight;
                 *momentum = beta * *momentum + gradient;
                 gradient + beta * *momentum
             })
             .collect();
         let (update, length) = self.orthogonal(ahead);
         for (weight, update) in weights.iter_mut().zip(update) {
-            *weight = kept * *weight - self.rate * length * update;
+            *weight = kept * *weight - rate * length * update;
         }
+    }
+
+    /// The same on a device; gives the new weights.
+    pub(super) fn apply_on_device(
+        &self,
+        weights: Tensor<1>,
+        gradient: &Tensor<1>,
+        momentum: &mut Tensor<1>,
+    ) -> Tensor<1> {
+        let StepSettings {
+            recipe,
+            rate,
+            scale,
+        } = self.settings;
+        let beta = recipe.muon.momentum;
+        let (coupled, kept) = self.decay();
+        let mut gradient = gradient.clone() * scale;
+        if coupled != 0.0 {
+            gradient = gradient + weights.clone() * coupled;
+        }
+        *momentum = momentum.clone() * beta + gradient.clone();
+        let ahead = gradient + momentum.clone() * beta;
+        let count = ahead.dims()[0];
+        let update = match self.shape {
+            Shape::Matrix { rows, columns, fan } => {
+                orthogonalised(ahead.reshape([rows, columns]), STEPS) * length(fan)
+            }
+            Shape::Filters { taps } => {
+                let filters = ahead.reshape([count / taps, taps]);
+                let norms = (filters.clone() * filters.clone()).sum_dim(1).sqrt();
+                filters / norms.clamp_min(f32::MIN_POSITIVE)
+            }
+        };
+        weights * kept - update.reshape([count]) * rate
     }
 
     /// The update made orthogonal, and what its length is multiplied by.
@@ -105,8 +149,10 @@ impl MuonStep {
             } => {
                 let data = TensorData::new(update, [rows, columns]);
                 let matrix = Tensor::<2>::from_data(data, &self.device);
-                let length = (outputs as f32 / inputs as f32).max(1.0).sqrt();
-                (host(orthogonalised(matrix, STEPS)), length)
+                (
+                    host(orthogonalised(matrix, STEPS)),
+                    length([inputs, outputs]),
+                )
             }
             Shape::Filters { taps } => {
                 for filter in update.chunks_exact_mut(taps) {
@@ -122,6 +168,7 @@ impl MuonStep {
 
 #[cfg(test)]
 mod tests {
+    use super::super::recipe::OptimiserRecipe;
     use super::*;
 
     fn recipe() -> OptimiserRecipe {
@@ -164,9 +211,13 @@ mod tests {
         let (rate, beta) = (0.02, 0.95);
         let mut expected = [1.0, 2.0, 3.0, 4.0];
         let mut momentum = 0.0f64;
+        let recipe = recipe();
         let step = MuonStep {
-            rate: rate as f32,
-            scale: 0.5,
+            settings: StepSettings {
+                recipe: &recipe,
+                rate: rate as f32,
+                scale: 0.5,
+            },
             shape: Shape::Matrix {
                 rows: 2,
                 columns: 2,
@@ -179,7 +230,7 @@ mod tests {
         // The second gradient is large enough to turn the momentum around.
         for factor in [1.0, -3.0] {
             let gradient = rotation.map(|r| (factor * r) as f32);
-            step.apply(&recipe(), &mut weights, &gradient, &mut state);
+            step.apply(&mut weights, &gradient, &mut state);
             momentum = beta * momentum + 0.5 * factor;
             let sign = (0.5 * factor + beta * momentum).signum();
             for (weight, r) in expected.iter_mut().zip(rotation) {
@@ -197,9 +248,16 @@ mod tests {
     /// Wide layers take longer steps; weights decay by Muon's own rate.
     #[test]
     fn length_and_decay() {
+        let recipe = OptimiserRecipe {
+            weight_decay: 0.5,
+            ..recipe()
+        };
         let step = MuonStep {
-            rate: 0.1,
-            scale: 1.0,
+            settings: StepSettings {
+                recipe: &recipe,
+                rate: 0.1,
+                scale: 1.0,
+            },
             shape: Shape::Matrix {
                 rows: 4,
                 columns: 1,
@@ -207,15 +265,11 @@ mod tests {
             },
             device: Device::flex(),
         };
-        let recipe = OptimiserRecipe {
-            weight_decay: 0.5,
-            ..recipe()
-        };
         let mut weights = [1.0; 4];
-        step.apply(&recipe, &mut weights, &[0.0; 4], &mut [0.0; 4]);
+        step.apply(&mut weights, &[0.0; 4], &mut [0.0; 4]);
         assert_eq!(weights, [0.95; 4]);
         let mut weights = [0.0; 4];
-        step.apply(&recipe, &mut weights, &[3.0, 0.0, 0.0, 0.0], &mut [0.0; 4]);
+        step.apply(&mut weights, &[3.0, 0.0, 0.0, 0.0], &mut [0.0; 4]);
         let length = weights[0] / -0.1;
         assert!((2.0 * 0.65..2.0 * 1.25).contains(&length), "{length}");
     }
@@ -223,15 +277,18 @@ mod tests {
     /// Every channel of a depthwise convolution moves equally far.
     #[test]
     fn filters_by_themselves() {
+        let recipe = recipe();
         let step = MuonStep {
-            rate: 1.0,
-            scale: 1.0,
+            settings: StepSettings {
+                recipe: &recipe,
+                rate: 1.0,
+                scale: 1.0,
+            },
             shape: Shape::Filters { taps: 2 },
             device: Device::flex(),
         };
         let mut weights = [0.0; 6];
         step.apply(
-            &recipe(),
             &mut weights,
             &[30.0, 40.0, 0.0, 1e-6, 0.0, 0.0],
             &mut [0.0; 6],

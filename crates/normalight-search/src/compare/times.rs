@@ -150,7 +150,7 @@ fn median_seconds<T: Task>(
     device: &Device,
 ) -> Result<f64, TrainError> {
     let task = T::of(&recipe.network).expect("all recipes train the network of the schedule");
-    let mut learner = NetworkLearner::new(task, recipe, device, &[])?;
+    let mut learner = NetworkLearner::new(task, recipe, device.into())?;
     for step in 0..WARM_UP {
         learner.learn(batch, step)?;
     }
