@@ -2,7 +2,7 @@
 use crate::learner::Learner;
 use crate::loader::{BatchMaker, Batches};
 use crate::run_folder::{Found, RunFolder};
-use crate::training_loop::{StepReport, train_loop};
+use crate::training_loop::{StepReport, TrainingLoop};
 use crate::{Failure, RunError, RunSpec, RunState, Summary, TrainingState, checkpoint};
 use std::ops::ControlFlow;
 
@@ -117,15 +117,13 @@ impl<O: FnMut(RunEvent) -> ControlFlow<()>> Session<'_, O> {
         let mut batches = Batches::start(maker, threads, self.training_state.step, schedule.steps);
         let observe = &mut *self.observe;
         let observe = |report| observe(RunEvent::Step(report));
-        let (folder, training_state) = (&self.folder, &mut self.training_state);
-        train_loop(
+        let training_loop = TrainingLoop {
             learner,
-            &mut batches,
-            folder,
+            folder: &self.folder,
             schedule,
-            training_state,
-            observe,
-        )
+            state: &mut self.training_state,
+        };
+        training_loop.run(&mut batches, observe)
     }
 
     fn summary(&self, state: RunState) -> Summary {

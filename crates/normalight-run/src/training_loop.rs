@@ -26,136 +26,133 @@ pub struct StepReport {
     pub waited: f64,
 }
 
-/// Trains up to the last step, or until `observe` stops it, which is what the answer tells. A
-/// checkpoint is written either way.
-pub(crate) fn train_loop<L: Learner>(
-    learner: &mut L,
-    batches: &mut Batches<L::Batch, L::Error>,
-    folder: &RunFolder,
-    schedule: LoopSchedule,
-    training_state: &mut TrainingState,
-    mut observe: impl FnMut(StepReport) -> ControlFlow<()>,
-) -> Result<ControlFlow<()>, L::Error> {
-    let mut points = curves::read(folder.path())?;
-    points.retain(|point| point.step <= training_state.step);
-    let mut speed = Speed::default();
-    while training_state.step < schedule.steps {
-        let start = Instant::now();
-        let batch = batches.take_next()?;
-        let waited = start.elapsed().as_secs_f64();
-        let learned = learn(learner, &batch, training_state.step)?;
-        let rate = learner.rate(training_state.step);
-        training_state.step += 1;
-        training_state.loss = Some(learned.loss);
-        training_state.recent.0 += learned.loss;
-        training_state.recent.1 += 1;
-        let computed = start.elapsed().as_secs_f64() - waited;
-        speed.add(waited, computed);
-        let last = training_state.step == schedule.steps;
-        let validation = if last || training_state.step.is_multiple_of(schedule.validate_every) {
-            let seconds = training_state.seconds + start.elapsed().as_secs_f64();
-            Some(validate(
-                learner,
-                folder,
-                training_state,
-                &mut points,
-                rate,
-                seconds,
-            )?)
+/// A learner's way through its steps.
+pub(crate) struct TrainingLoop<'a, L> {
+    pub(crate) learner: &'a mut L,
+    pub(crate) folder: &'a RunFolder,
+    pub(crate) schedule: LoopSchedule,
+    pub(crate) state: &'a mut TrainingState,
+}
+
+impl<L: Learner> TrainingLoop<'_, L> {
+    /// Trains up to the last step, or until `observe` stops it, which is what the answer tells. A
+    /// checkpoint is written either way.
+    pub(crate) fn run(
+        mut self,
+        batches: &mut Batches<L::Batch, L::Error>,
+        mut observe: impl FnMut(StepReport) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, L::Error> {
+        let schedule = self.schedule;
+        let mut points = curves::read(self.folder.path())?;
+        points.retain(|point| point.step <= self.state.step);
+        let mut speed = Speed::default();
+        while self.state.step < schedule.steps {
+            let start = Instant::now();
+            let batch = batches.take_next()?;
+            let waited = start.elapsed().as_secs_f64();
+            let learned = self.learn(&batch)?;
+            let computed = start.elapsed().as_secs_f64() - waited;
+            speed.add(waited, computed);
+            let rate = self.learner.rate(self.state.step - 1);
+            let last = self.state.step == schedule.steps;
+            let validation = if last || self.state.step.is_multiple_of(schedule.validate_every) {
+                let seconds = self.state.seconds + start.elapsed().as_secs_f64();
+                Some(self.validate(&mut points, rate, seconds)?)
+            } else {
+                None
+            };
+            self.state.seconds += start.elapsed().as_secs_f64();
+            self.state.waited += waited;
+            let answer = observe(StepReport {
+                step: self.state.step,
+                loss: learned.loss,
+                gradient_norm: learned.gradient_norm,
+                validation: validation.as_ref().map(|validation| validation.degrees),
+                best: self.state.best.as_ref().map(|best| best.degrees),
+                seconds: computed,
+                waited,
+            });
+            let due = self.state.step.is_multiple_of(schedule.checkpoint_every);
+            if last || answer.is_break() || due {
+                checkpoint::save(self.folder.path(), &self.learner.state(), self.state)?;
+            }
+            if last || due || validation.is_some() {
+                let line = log_line(self.state, schedule, learned, rate, validation.as_ref());
+                let speed = speed.take(schedule.batch);
+                self.folder.log(&format!("{line}, {speed}"));
+            }
+            if answer.is_break() && !last {
+                return Ok(answer);
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Takes a step and counts it.
+    fn learn(&mut self, batch: &L::Batch) -> Result<StepOutcome, L::Error> {
+        let step = self.state.step;
+        let learned = self.learner.learn(batch, step)?;
+        if let Some((quantity, value)) = learned.failure() {
+            return Err(L::Error::from(RunError::Diverged {
+                quantity,
+                value,
+                step: step + 1,
+                batch_seed: self.learner.batch_seed(step),
+            }));
+        }
+        self.state.step += 1;
+        self.state.loss = Some(learned.loss);
+        self.state.recent.0 += learned.loss;
+        self.state.recent.1 += 1;
+        Ok(learned)
+    }
+
+    /// Validates, draws the curves, and keeps the result when it is the best or always the newest is kept.
+    fn validate(
+        &mut self,
+        points: &mut Vec<Point>,
+        rate: f32,
+        seconds: f64,
+    ) -> Result<Validation, L::Error> {
+        let step = self.state.step;
+        let validation = self.learner.validate(step)?;
+        let (sum, count) = std::mem::take(&mut self.state.recent);
+        points.push(Point {
+            step,
+            loss: sum / count.max(1) as f32,
+            error: validation.degrees,
+            rate,
+            seconds,
+            figures: validation.figures.clone(),
+        });
+        curves::write(self.folder.path(), points)?;
+        for (name, content) in self.learner.drawings() {
+            self.folder.write(&name, &content)?;
+        }
+        let better = |best: &Best| validation.degrees < best.degrees;
+        let is_best = validation.degrees.is_finite() && self.state.best.as_ref().is_none_or(better);
+        if (is_best || L::KEEPS_NEWEST)
+            && let Some(result) = self.learner.result()?
+        {
+            self.folder.write_result(&result)?;
         } else {
-            None
-        };
-        training_state.seconds += start.elapsed().as_secs_f64();
-        training_state.waited += waited;
-        let answer = observe(StepReport {
-            step: training_state.step,
-            loss: learned.loss,
-            gradient_norm: learned.gradient_norm,
-            validation: validation.as_ref().map(|validation| validation.degrees),
-            best: training_state.best.as_ref().map(|best| best.degrees),
-            seconds: computed,
-            waited,
-        });
-        let due = training_state
-            .step
-            .is_multiple_of(schedule.checkpoint_every);
-        if last || answer.is_break() || due {
-            checkpoint::save(folder.path(), &learner.state(), training_state)?;
+            return Ok(validation);
         }
-        if last || due || validation.is_some() {
-            let line = log_line(training_state, schedule, learned, rate, validation.as_ref());
-            folder.log(&format!("{line}, {}", speed.take(schedule.batch)));
+        if is_best {
+            self.state.best = Some(Best {
+                step,
+                degrees: validation.degrees,
+                // JSON has no word for other numbers.
+                figures: validation
+                    .figures
+                    .iter()
+                    .filter(|(_, value)| value.is_finite())
+                    .map(|(name, value)| (name.clone(), *value))
+                    .collect(),
+            });
         }
-        if answer.is_break() && !last {
-            return Ok(answer);
-        }
+        Ok(validation)
     }
-    Ok(ControlFlow::Continue(()))
-}
-
-fn learn<L: Learner>(
-    learner: &mut L,
-    batch: &L::Batch,
-    step: usize,
-) -> Result<StepOutcome, L::Error> {
-    let learned = learner.learn(batch, step)?;
-    match learned.failure() {
-        None => Ok(learned),
-        Some((quantity, value)) => Err(L::Error::from(RunError::Diverged {
-            quantity,
-            value,
-            step: step + 1,
-            batch_seed: learner.batch_seed(step),
-        })),
-    }
-}
-
-/// Validates, draws the curves, and keeps the result when it is the best or always the newest is kept.
-fn validate<L: Learner>(
-    learner: &mut L,
-    folder: &RunFolder,
-    training_state: &mut TrainingState,
-    points: &mut Vec<Point>,
-    rate: f32,
-    seconds: f64,
-) -> Result<Validation, L::Error> {
-    let validation = learner.validate(training_state.step)?;
-    let (sum, count) = std::mem::take(&mut training_state.recent);
-    points.push(Point {
-        step: training_state.step,
-        loss: sum / count.max(1) as f32,
-        error: validation.degrees,
-        rate,
-        seconds,
-        figures: validation.figures.clone(),
-    });
-    curves::write(folder.path(), points)?;
-    for (name, content) in learner.drawings() {
-        folder.write(&name, &content)?;
-    }
-    let better = |best: &Best| validation.degrees < best.degrees;
-    let is_best = validation.degrees.is_finite() && training_state.best.as_ref().is_none_or(better);
-    if (is_best || L::KEEPS_NEWEST)
-        && let Some(result) = learner.result()?
-    {
-        folder.write_result(&result)?;
-    } else {
-        return Ok(validation);
-    }
-    if is_best {
-        training_state.best = Some(Best {
-            step: training_state.step,
-            degrees: validation.degrees,
-            // JSON has no word for other numbers.
-            figures: validation
-                .figures
-                .iter()
-                .filter(|(_, value)| value.is_finite())
-                .map(|(name, value)| (name.clone(), *value))
-                .collect(),
-        });
-    }
-    Ok(validation)
 }
 
 fn log_line(
