@@ -47,5 +47,5 @@ pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
 pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json};
-pub use result_files::{RunDescription, result_files};
+pub use result_files::{OutputName, RunDescription, result_files};
 pub use stack::{read_stack, read_text};
