@@ -93,21 +93,22 @@ pub fn spelling(workspace: &Workspace, typos: &Path) -> Result<()> {
 
 /// Checks what is built in by deny.toml; known faults only where their database is on this computer.
 pub fn deny(workspace: &Workspace, cargo_deny: &Path) -> Result<()> {
-    let mut command = workspace.cargo(&[]);
-    let cargo = command.get_program().to_owned();
-    command = Command::new(cargo_deny);
-    command.current_dir(&workspace.root).env("CARGO", cargo);
-    command.args(["--offline", "--locked", "check", "--hide-inclusion-graph"]);
-    command.args(["bans", "licenses", "sources"]);
+    let check = |offline: &[&str], which: &[&str]| {
+        let mut command = Command::new(cargo_deny);
+        command.current_dir(&workspace.root);
+        command.arg("--locked").args(offline);
+        command.args(["check", "--hide-inclusion-graph"]);
+        run::run(command.args(which))
+    };
+    check(&[], &["bans", "licenses", "sources"])?;
     if database()? {
-        command.arg("advisories");
-    } else {
-        workspace.say(&format!(
-            "deny: SKIPPED known faults: their database is not here; `{} fetch db` fetches it",
-            cargo_deny.display()
-        ));
+        return check(&["--offline"], &["advisories"]);
     }
-    run::run(&mut command)
+    workspace.say(&format!(
+        "deny: SKIPPED known faults: their database is not here; `{} fetch db` fetches it",
+        cargo_deny.display()
+    ));
+    Ok(())
 }
 
 /// Whether cargo-deny's database of known faults is where it keeps it.
