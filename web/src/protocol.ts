@@ -1,24 +1,14 @@
+import type { FailureKind, Settings } from "./generated.js";
 import type {
   ColorMode,
   DeviceChoice,
   DeviceReport,
   Estimate,
   Plan,
-  Quality,
   StackFile,
   Stage,
   Thumbnail,
 } from "./types.js";
-
-/** Settings that the module understands, without files and functions. */
-export interface Settings {
-  color: ColorMode;
-  mask: "auto" | "none";
-  images: number | undefined;
-  normalFormat: "opengl" | "directx";
-  refit: boolean;
-  quality: Quality;
-}
 
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
@@ -30,7 +20,7 @@ export interface Tasks {
       files: readonly StackFile[];
       mask: StackFile | undefined;
       lights: StackFile | undefined;
-      settings: Settings;
+      settings: Required<Settings>;
     };
     response: Estimate;
   };
@@ -49,5 +39,5 @@ export type FromWorker =
   | { event: "load"; fraction: number }
   | { event: "progress"; stage: Stage; fraction: number }
   | { event: "done"; response: Tasks[TaskName]["response"] }
-  | { event: "failed"; kind: "input" | "device" | "cancelled"; message: string }
+  | { event: "failed"; kind: FailureKind; message: string }
   | { event: "crashed"; message: string };

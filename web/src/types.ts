@@ -1,3 +1,27 @@
+import type { ColorMode, NormalFormat, Quality, Stage } from "./generated.js";
+
+// What crosses into the module and back has one definition, in Rust; here is what only TypeScript knows.
+export type {
+  ColorMode,
+  Decoding,
+  Estimate,
+  FloatMap,
+  Light,
+  MaskOrigin,
+  MaskReport,
+  NormalFormat,
+  OutputFile,
+  OutputName,
+  Plan,
+  Quality,
+  Report,
+  ReportSettings,
+  Stage,
+  StageSeconds,
+  Thumbnail,
+  WeightHashes,
+} from "./generated.js";
+
 /** A file of the user (from an input or a drop), or one in memory. */
 export type StackFile = File | NamedFile;
 
@@ -32,15 +56,6 @@ export interface CreateOptions {
   readonly onLoad?: (fraction: number) => void;
 }
 
-/** How samples relate to light: `auto` takes 8-bit JPEG and WebP as sRGB and all else as linear. */
-export type ColorMode = "auto" | "linear" | "srgb";
-
-/**
- * Over how many mirrored and turned views of the photographs lights and normals are averaged: `fast` takes one,
- * `default` a few, `best` all.
- */
-export type Quality = "fast" | "default" | "best";
-
 /** How to estimate; everything may be left out. */
 export interface EstimateOptions {
   /** How samples relate to light; `auto` when left out. */
@@ -55,7 +70,7 @@ export interface EstimateOptions {
   /** Use only this many images, evenly spaced. */
   readonly images?: number;
   /** Which way green points in `normals.png` and the preview; `opengl` (up) when left out. */
-  readonly normalFormat?: "opengl" | "directx";
+  readonly normalFormat?: NormalFormat;
   /** Refit the lights to the normals, and the normals to them; on when left out. */
   readonly refit?: boolean;
   /** What good lights and normals may cost; `default` when left out. */
@@ -77,91 +92,11 @@ export interface Progress {
 }
 
 /** The stages of a run in their order; with given lights or without a refit some are left out. */
-export const STAGES = ["reading", "lights", "normals", "refit", "final normals", "albedo"] as const;
-
-/** A stage of a run. */
-export type Stage = (typeof STAGES)[number];
-
-/** The light of one photograph. */
-export interface Light {
-  /** The photograph's file name. */
-  readonly file: string;
-  /** Unit vector from the object to the light: x right, y up, z to the camera. */
-  readonly x: number;
-  readonly y: number;
-  readonly z: number;
-  /** Brightness relative to the mean of the stack. */
-  readonly intensity: number;
-  /** 0 (no idea) to 1 (certain). */
-  readonly confidence: number;
-}
-
-/** Names of the files that an estimation makes; the command line writes the same. */
-export type OutputName =
-  | "normals.png"
-  | "normals.npy"
-  | "lights.csv"
-  | "lights.lp"
-  | "lights.svg"
-  | "albedo.png"
-  | "mask.png"
-  | "report.json";
-
-/** Numbers with their shape, rows from the top. */
-export interface FloatMap {
-  readonly data: Float32Array<ArrayBuffer>;
-  /** `[height, width, 3]`. */
-  readonly shape: readonly [number, number, number];
-}
-
-/** What an estimation gives. */
-export interface Estimate {
-  readonly width: number;
-  readonly height: number;
-  /** One per image used, in order. */
-  readonly lights: readonly Light[];
-  /** Which pixels were taken for the object, and how many. */
-  readonly mask: {
-    readonly source: "file" | "alpha" | "guessed" | "none";
-    /** The mask's file name, or the source in words. */
-    readonly words: string;
-    readonly pixels: number;
-  };
-  /** What computed. */
-  readonly device: string;
-  /** Over how many views it was averaged. */
-  readonly quality: Quality;
-  /** Time of each stage, in the order they ran. */
-  readonly seconds: readonly { readonly stage: Stage; readonly seconds: number }[];
-  /** Unit normals: x right, y up, z to the camera; zero outside the object. */
-  readonly normalMap: FloatMap;
-  /** Linear RGB up to one scale; zero outside the object. */
-  readonly albedoMap: FloatMap;
-  /** The normals as 8-bit RGBA, transparent outside the object; rows from the top. */
-  readonly normals: Uint8Array<ArrayBuffer>;
-  /** The albedo as 8-bit sRGB with alpha; rows from the top. */
-  readonly albedo: Uint8Array<ArrayBuffer>;
-  /** Files to keep. */
-  readonly files: readonly OutputFile[];
-}
-
-/** A file to keep. */
-export interface OutputFile extends NamedFile {
-  readonly name: OutputName;
-}
-
-/** Which of some files are the photographs, and which is the mask. */
-export interface Plan {
-  /** Positions of the images among the files, in the order of the stack. */
-  readonly images: readonly number[];
-  /** Position of the mask among the files. */
-  readonly mask?: number;
-}
-
-/** A photograph in few pixels. */
-export interface Thumbnail {
-  readonly width: number;
-  readonly height: number;
-  /** 8-bit sRGB with full alpha; rows from the top. */
-  readonly rgba: Uint8Array<ArrayBuffer>;
-}
+export const STAGES = Object.keys({
+  reading: true,
+  lights: true,
+  normals: true,
+  refit: true,
+  "final normals": true,
+  albedo: true,
+} satisfies Record<Stage, true>) as readonly Stage[];

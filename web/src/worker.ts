@@ -1,8 +1,9 @@
 import type { Engine } from "../wasm/normalight.js";
 import { chooseDevice, cpu } from "./device.js";
+import type { Thrown } from "./generated.js";
 import { load, type Module } from "./load.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
-import type { DeviceChoice, DeviceReport, NamedFile, StackFile, Stage } from "./types.js";
+import type { DeviceChoice, DeviceReport, NamedFile, StackFile } from "./types.js";
 import { yieldToEvents } from "./yielding.js";
 
 /** The part of a worker's global scope that is used here. */
@@ -78,8 +79,8 @@ async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["e
   const mask = request.mask && (await read(request.mask));
   const lights = request.lights && (await read(request.lights));
   return await engine.estimate(files, mask, lights, request.settings, {
-    async report(stage: string, fraction: number): Promise<boolean> {
-      tell({ event: "progress", stage: stage as Stage, fraction });
+    async report(stage, fraction: number): Promise<boolean> {
+      tell({ event: "progress", stage, fraction });
       await yieldToEvents();
       return !cancelled;
     },
@@ -101,7 +102,7 @@ async function readText(file: StackFile): Promise<NamedFile> {
 }
 
 /** The module throws `{ kind, message }`; everything else is a surprise. */
-function failure(error: unknown): { kind: "input" | "device" | "cancelled"; message: string } {
+function failure(error: unknown): Thrown {
   const { kind, message } = Object(error) as { kind?: unknown; message?: unknown };
   return {
     kind: kind === "input" || kind === "cancelled" ? kind : "device",

@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { STAGES } from "normalight";
 import { lightDifference, normalDifference } from "./support/compare.js";
 import { commandResults, goldenStack, sampleFolder, sampleList } from "./support/files.js";
 import { Page } from "./support/page.js";
@@ -70,6 +71,7 @@ function comparable(report) {
   const { device, seconds, settings, ...rest } = report;
   const { device: asked, ...others } = settings;
   assert.ok(device && asked && seconds.length > 0);
+  for (const { stage } of seconds) assert.ok(stage === "start" || STAGES.includes(stage), stage);
   const stages = seconds.map((/** @type {{ stage: string }} */ { stage }) => stage);
   // Before it reads, the command starts up; the page has done so long ago.
   return {

@@ -10,7 +10,9 @@ mod run;
 mod serve;
 mod setup;
 mod steps;
+mod types;
 mod wasm;
+mod wheel;
 mod workspace;
 
 use std::process::ExitCode;
@@ -53,7 +55,7 @@ enum Task {
         #[arg(long, value_name = "STEP")]
         skip: Vec<Step>,
     },
-    /// Build the WebAssembly module and its JavaScript into web/wasm.
+    /// Build the WebAssembly module and its JavaScript into web/wasm, and renew the package's generated types.
     Wasm,
 }
 
@@ -85,6 +87,9 @@ fn perform(arguments: Arguments) -> Result<()> {
         Task::Test { only, skip } => {
             steps::run(&workspace, &steps::chosen(&only, &skip), installing)
         }
-        Task::Wasm => steps::run(&workspace, &steps::WASM, installing),
+        Task::Wasm => {
+            steps::run(&workspace, &steps::WASM, installing)?;
+            types::renew(&workspace)
+        }
     }
 }

@@ -11,6 +11,7 @@ use anyhow::{Context, Result, bail};
 use crate::fresh::stale;
 use crate::packages::Packages;
 use crate::run;
+use crate::wheel;
 use crate::workspace::Workspace;
 
 /// What Vite asks for.
@@ -40,7 +41,7 @@ impl Node {
         if let Some(node) = Self::on(path.clone()) {
             return Ok(node);
         }
-        install(packages, &home).with_context(|| {
+        wheel::install(packages, WHEEL, &home, link_programs).with_context(|| {
             format!("the page needs {NEEDED}, which could not be installed; install it by hand")
         })?;
         Self::on(path).with_context(|| format!("the Node.js in {} does not run", home.display()))
@@ -108,34 +109,6 @@ fn new_enough(version: &str) -> bool {
         22 => minor >= 12,
         _ => major > 22,
     }
-}
-
-fn install(packages: &Packages, home: &Path) -> Result<()> {
-    let aside = home.with_extension("new");
-    for folder in [home, &aside] {
-        if folder.exists() {
-            fs::remove_dir_all(folder)
-                .with_context(|| format!("cannot remove {}", folder.display()))?;
-        }
-    }
-    if !run::works("python3", &["-m", "pip", "--version"]) {
-        packages.install(&["python3-pip"])?;
-    }
-    let mut pip = Command::new("python3");
-    pip.args([
-        "-m",
-        "pip",
-        "install",
-        "--no-deps",
-        "--only-binary",
-        ":all:",
-        "--target",
-    ]);
-    pip.arg(&aside).arg(WHEEL);
-    packages.announce(&run::shown(&pip))?;
-    run::read(&mut pip)?;
-    link_programs(&aside)?;
-    fs::rename(&aside, home).with_context(|| format!("cannot write {}", home.display()))
 }
 
 /// Python packages hold no links, so the package's own npm does not find its library: these do.

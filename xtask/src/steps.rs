@@ -8,7 +8,9 @@ use clap::ValueEnum;
 use crate::packages::Installing;
 use crate::run;
 use crate::setup::Tools;
+use crate::types;
 use crate::wasm;
+use crate::wheel;
 use crate::workspace::Workspace;
 
 /// One step of the tests or the demo.
@@ -16,6 +18,10 @@ use crate::workspace::Workspace;
 pub enum Step {
     /// Rust's format.
     Fmt,
+    /// Spelling.
+    Spelling,
+    /// Licences, sources, duplicates and known faults of what is built in.
+    Deny,
     /// These tasks themselves: lints, documentation and tests.
     Xtask,
     /// Lints of the native crates.
@@ -34,6 +40,8 @@ pub enum Step {
     Wasm,
     /// The module's JavaScript.
     Bindgen,
+    /// The package's generated types are the module's.
+    Types,
     /// The page's packages.
     NpmCi,
     /// Types and lints of the page.
@@ -116,7 +124,9 @@ fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
                 tools.chromium()?;
             }
             Step::Rust => drop(tools.software_gpu()?),
-            Step::Docs | Step::Build | Step::Bindgen => {}
+            Step::Spelling => drop(tools.typos()?),
+            Step::Deny => drop(tools.cargo_deny()?),
+            Step::Docs | Step::Build | Step::Bindgen | Step::Types => {}
         }
     }
     Ok(())
@@ -144,6 +154,8 @@ impl Step {
         let npm = |arguments: &[&str]| anyhow::Ok(tools.node()?.npm(workspace, arguments));
         match self {
             Self::Fmt => run::run(&mut workspace.cargo(&["fmt", "--all", "--check"])),
+            Self::Spelling => wheel::spelling(workspace, tools.typos()?),
+            Self::Deny => wheel::deny(workspace, tools.cargo_deny()?),
             Self::Xtask => {
                 let lint = ["clippy", "--package", "xtask", "--all-targets", "--"];
                 run::run(workspace.cargo(&lint).args(["-D", "warnings"]))?;
@@ -180,6 +192,7 @@ impl Step {
             Self::WasmClippy => tools.toolchain()?.clippy(workspace),
             Self::Wasm => tools.toolchain()?.build(workspace),
             Self::Bindgen => wasm::bindgen(workspace),
+            Self::Types => types::check(workspace),
             Self::NpmCi => tools.node()?.install_packages(workspace),
             Self::Check => run::run(&mut npm(&["run", "check"])?),
             Self::Page => tools.node()?.build_page(workspace),

@@ -41,6 +41,7 @@ pub struct LightBins {
 
 /// How class probabilities become numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Decoding {
     /// Centre of the most probable class: the published way, with an error floor of half a class.

@@ -2,6 +2,31 @@
 //!
 //! Axes everywhere: x right, y up, z to the camera. Angles are radians. A light's direction points
 //! from the object to the light.
+//!
+//! A matte plane that faces the camera, under three known lights, by least squares:
+//!
+//! ```
+//! use normalight_core::{
+//!     ImageStack, Light, Mask, Samples, StackImage, Transfer, Vec3, least_squares_normals,
+//! };
+//!
+//! let directions = [Vec3::X, -Vec3::X, Vec3::Y].map(|side| (side + Vec3::Z).normalize());
+//! let image = |direction: Vec3| StackImage {
+//!     name: String::new(),
+//!     width: 8,
+//!     height: 8,
+//!     channels: 1,
+//!     // Lambert's law with normal z and albedo 0.5.
+//!     samples: Samples::F32(vec![0.5 * direction.z; 64]),
+//!     transfer: Transfer::Linear,
+//! };
+//! let stack = ImageStack::new(directions.map(image).into())?;
+//! let lights = directions.map(|direction| Light::new(direction, 1.0));
+//! let (normals, albedo) = least_squares_normals(&stack, &Mask::whole(8, 8), &lights)?;
+//! assert!(normals.normals()[0].distance(Vec3::Z) < 1e-5);
+//! assert!((albedo[0] - 0.5).abs() < 1e-3);
+//! # Ok::<(), normalight_core::CoreError>(())
+//! ```
 #![deny(missing_docs)]
 
 mod angles;

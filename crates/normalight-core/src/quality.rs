@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// A view is turned or mirrored, and the world with it, so the truth is the same in all of them; the
 /// networks err a little differently in each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Quality {
     /// One view.

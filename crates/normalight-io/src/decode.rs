@@ -9,6 +9,7 @@ use std::io::Cursor;
 
 /// How the samples of photographs are taken to relate to light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum ColorMode {
     /// 8-bit JPEG and WebP are sRGB, everything else is linear.

@@ -4,6 +4,29 @@
 //! Everything works on bytes in memory, so the browser uses the same code; the functions that take
 //! paths do not exist there. Bytes from outside never panic and never take memory beyond the limits
 //! stated here.
+//!
+//! Which of some files are the photographs is decided by their names (a list and a mask count, too):
+//!
+//! ```
+//! use normalight_io::plan_stack;
+//!
+//! let plan = plan_stack(&["cup10.png", "cup2.png", "cup1.png", "mask.png"], None)?;
+//! assert_eq!(plan.images, [2, 1, 0]);
+//! assert_eq!(plan.mask, Some(3));
+//! # Ok::<(), normalight_io::IoError>(())
+//! ```
+//!
+//! Lights come from `.lp` files, tables or lines of `x y z`:
+//!
+//! ```
+//! use normalight_io::read_lights;
+//!
+//! let names = ["a.png", "b.png", "c.png"].map(str::to_owned);
+//! let text = "3\na.png 0 0 1\nb.png 0 0.6 0.8\nc.png 0.6 0 0.8\n";
+//! let lights = read_lights("lights.lp", text.as_bytes(), &names)?;
+//! assert_eq!(lights[1].direction.to_array(), [0.0, 0.6, 0.8]);
+//! # Ok::<(), normalight_io::IoError>(())
+//! ```
 #![deny(missing_docs)]
 
 mod decode;
@@ -47,5 +70,5 @@ pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
 pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json};
-pub use result_files::{RunDescription, result_files};
+pub use result_files::{OutputName, RunDescription, result_files};
 pub use stack::{read_stack, read_text};

@@ -9,6 +9,7 @@ use std::io::Cursor;
 
 /// Which way green points in an exported normal map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum NormalFormat {
     /// Green is up, as everywhere in this program.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Everything that is needed to tell later how a result came to be: `report.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 pub struct Report {
     /// Version of the program.
     pub version: String,
@@ -31,6 +32,7 @@ pub struct Report {
 
 /// What was asked for, in the words of the command line.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct ReportSettings {
     /// The device: `auto`, `cpu`, ...
     pub device: String,
@@ -63,6 +65,7 @@ pub(crate) fn lights_label(given: Option<&str>, refit: bool) -> String {
 
 /// Hashes of the weights files, `None` for a network that was not used.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct WeightHashes {
     /// The light network.
     pub light: Option<String>,
@@ -82,8 +85,10 @@ impl WeightHashes {
 
 /// How long one stage took.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 pub struct StageSeconds {
     /// Name of the stage.
+    #[cfg_attr(feature = "typescript", tsify(type = "Stage"))]
     pub stage: String,
     /// Wall time in seconds.
     pub seconds: f64,

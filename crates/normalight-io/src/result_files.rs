@@ -5,6 +5,37 @@ use crate::{
     lights_csv, lights_lp, lights_svg, mask_png, normals_npy, normals_png, report_json,
 };
 use normalight_core::{Estimate, EstimateSettings};
+use serde::{Deserialize, Serialize};
+
+/// Names of the files that an estimation leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+pub enum OutputName {
+    /// The normal map, 16 bits.
+    #[serde(rename = "normals.png")]
+    NormalsPng,
+    /// The normals as numbers.
+    #[serde(rename = "normals.npy")]
+    NormalsNpy,
+    /// The lights as a table.
+    #[serde(rename = "lights.csv")]
+    LightsCsv,
+    /// The lights for relighting programs.
+    #[serde(rename = "lights.lp")]
+    LightsLp,
+    /// The map of the lights.
+    #[serde(rename = "lights.svg")]
+    LightsSvg,
+    /// Colour without shading.
+    #[serde(rename = "albedo.png")]
+    AlbedoPng,
+    /// The pixels that were taken for the object.
+    #[serde(rename = "mask.png")]
+    MaskPng,
+    /// How the result came to be: a [`Report`].
+    #[serde(rename = "report.json")]
+    ReportJson,
+}
 
 /// How an estimate came to be.
 #[derive(Debug, Clone)]
@@ -57,7 +88,7 @@ impl RunDescription<'_> {
     }
 }
 
-/// Name and content of every file, the report last: where it is, the others are complete.
+/// Name (one of [`OutputName`]) and content of every file, the report last: where it is, the others are complete.
 ///
 /// # Errors
 /// [`IoError::Encode`].

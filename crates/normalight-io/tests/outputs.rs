@@ -1,12 +1,12 @@
 //! Maps and the report as files.
 use normalight_core::{
-    CoreError, Decoding, EstimateSettings, ImageStack, Mask, MaskSource, NormalMap, Quality,
-    Samples, StackImage, Transfer, Vec3,
+    CoreError, Decoding, Estimate, EstimateSettings, ImageStack, Light, Mask, MaskSource,
+    NormalMap, Quality, Samples, StackImage, Transfer, Vec3,
 };
 use normalight_io::{
-    ColorMode, IoError, NormalFormat, ReadOptions, Report, ReportSettings, RunDescription,
-    StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, decode_mask, mask_png,
-    normals_npy, normals_png, normals_rgba, report_json,
+    ColorMode, IoError, NormalFormat, OutputName, ReadOptions, Report, ReportSettings,
+    RunDescription, StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, decode_mask,
+    mask_png, normals_npy, normals_png, normals_rgba, report_json, result_files,
 };
 
 fn map() -> NormalMap {
@@ -180,4 +180,16 @@ fn reports_say_what_was_done_with_given_lights() {
     assert_eq!(given.lights_from, "lights.lp");
     assert_eq!(given.weights.light, None);
     assert_eq!(given.settings.mask, "auto");
+
+    let estimate = Estimate {
+        lights: vec![Light::new(Vec3::Z, 1.0); 3],
+        normals: NormalMap::new(16, 16, vec![Vec3::Z; 256]),
+        albedo: vec![0.5; 3 * 256],
+    };
+    let files = result_files(&input, &estimate, &given).unwrap();
+    let names: std::collections::HashSet<OutputName> = files
+        .iter()
+        .map(|(name, _)| serde_json::from_value((*name).into()).unwrap())
+        .collect();
+    assert_eq!(names.len(), 8);
 }

@@ -5,6 +5,19 @@
 //!
 //! Feature maps are channels last, `[batch, height, width, channels]`: a pixel's channels lie side by side, as vector
 //! instructions and matrix products want them.
+//!
+//! ```
+//! use burn::tensor::{Device, Tensor};
+//! use normalight_kernels::{Convolution, convolution};
+//!
+//! let device = Device::flex();
+//! // One picture of 8 x 8 pixels with 3 channels, through 5 filters of 3 x 3.
+//! let input = Tensor::<4>::ones([1, 8, 8, 3], &device);
+//! let weight = Tensor::<4>::ones([5, 3, 3, 3], &device);
+//! let bias = Tensor::<1>::zeros([5], &device);
+//! let output = convolution(input, weight, bias, Convolution::default());
+//! assert_eq!(output.dims(), [1, 8, 8, 5]);
+//! ```
 #![deny(missing_docs)]
 #![cfg_attr(
     not(feature = "autodiff"),

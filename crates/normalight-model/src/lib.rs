@@ -1,6 +1,35 @@
 //! The networks of Normalight and the way from photographs to lights and normals.
 //!
-//! No backend is chosen here: every entry point takes a Burn [`Device`](burn::tensor::Device).
+//! No backend is chosen here: every entry point takes a Burn [`Device`](burn::tensor::Device). The crate's examples go
+//! from files, from photographs in memory and from given lights to an [`Estimate`]; in short:
+//!
+//! ```no_run
+//! use burn::tensor::Device;
+//! use normalight_core::{ImageStack, Mask};
+//! use normalight_model::{
+//!     EstimateSettings, Estimator, ModelError, NoopObserver, default_weights,
+//! };
+//!
+//! fn estimate(stack: &ImageStack, mask: &Mask) -> Result<(), ModelError> {
+//!     let [light, normal] = default_weights()?;
+//!     let estimator = Estimator::new(&light, &normal, Device::flex())?;
+//!     let settings = EstimateSettings::default();
+//!     let mut observer = NoopObserver;
+//!     let running = estimator.estimate(stack, mask, None, settings, &mut observer);
+//!     let estimate = pollster::block_on(running)?;
+//!     println!("{:?}", estimate.lights);
+//!     Ok(())
+//! }
+//! ```
+//!
+//! The shipped weights are part of the crate:
+//!
+//! ```
+//! let [light, normal] = normalight_model::default_weights()?;
+//! assert_eq!(light.hash().len(), 64);
+//! assert_ne!(light.hash(), normal.hash());
+//! # Ok::<(), normalight_model::ModelError>(())
+//! ```
 #![deny(missing_docs)]
 #![allow(
     clippy::large_enum_variant,

@@ -6,6 +6,18 @@
 //!
 //! [`Renderer`] draws a [`Scene`]: shape, material and lamps, rendered without a camera. A scene gives
 //! many a [`Sample`]: photographs with the truth about them. Axes: x right, y up, z to the camera.
+//!
+//! ```
+//! use normalight_synth::{Framing, Preset, Renderer};
+//!
+//! let renderer = Renderer::new(Preset::Classic.recipe())?;
+//! // Sample 7 under 4 lights, 32 x 32 pixels: the same bits on every machine.
+//! let sample = renderer.sample(7, 4, 32, Framing::WholeObject);
+//! assert_eq!(sample.images.len(), 4 * 3 * 32 * 32);
+//! assert_eq!(sample.lights.len(), 4);
+//! assert_eq!(sample, renderer.sample(7, 4, 32, Framing::WholeObject));
+//! # Ok::<(), normalight_synth::SynthError>(())
+//! ```
 #![deny(missing_docs)]
 
 mod camera;

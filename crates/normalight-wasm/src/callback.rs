@@ -1,4 +1,5 @@
 //! Progress out, cancelling in, and the clock.
+use crate::stage::Stage;
 use normalight_io::StageSeconds;
 use normalight_model::{Observer, Progress, StageTimes};
 use std::ops::ControlFlow;
@@ -9,7 +10,7 @@ const TYPES: &str = "
 /** Follows a run. */
 export interface ProgressCallback {
   /** Hears of progress (a stage and the share of it that is done), lets the event loop run, and says whether to go on. */
-  report(stage: string, fraction: number): Promise<boolean>;
+  report(stage: Stage, fraction: number): Promise<boolean>;
 }
 ";
 
@@ -31,9 +32,6 @@ extern "C" {
     fn now() -> f64;
 }
 
-/// Reading comes before the pipeline and its stages.
-const READING: &str = "reading";
-
 /// Passes the pipeline's progress on and takes the time of its stages.
 pub(crate) struct ProgressObserver<'a> {
     callback: &'a ProgressCallback,
@@ -45,7 +43,7 @@ pub(crate) struct ProgressObserver<'a> {
 impl<'a> ProgressObserver<'a> {
     /// Begins with the reading of the files; `None` when the run is cancelled already.
     pub(crate) async fn start(callback: &'a ProgressCallback) -> Option<Self> {
-        let go_on = tell(callback, READING, 0.0).await;
+        let go_on = tell(callback, Stage::Reading, 0.0).await;
         go_on.is_continue().then(|| Self {
             callback,
             started: seconds(),
@@ -62,12 +60,12 @@ impl<'a> ProgressObserver<'a> {
     /// Seconds per stage, the reading first.
     pub(crate) fn finish(mut self) -> Vec<StageSeconds> {
         let reading = StageSeconds {
-            stage: READING.to_owned(),
+            stage: Stage::Reading.name().to_owned(),
             seconds: self.read,
         };
         let stages = self.stages.finish(seconds()).iter();
         let stages = stages.map(|&(stage, seconds)| StageSeconds {
-            stage: stage.name().to_owned(),
+            stage: Stage::from(stage).name().to_owned(),
             seconds,
         });
         std::iter::once(reading).chain(stages).collect()
@@ -77,12 +75,12 @@ impl<'a> ProgressObserver<'a> {
 impl Observer for ProgressObserver<'_> {
     async fn report(&mut self, progress: Progress) -> ControlFlow<()> {
         self.stages.note(progress, seconds());
-        tell(self.callback, progress.stage.name(), progress.fraction).await
+        tell(self.callback, progress.stage.into(), progress.fraction).await
     }
 }
 
-async fn tell(callback: &ProgressCallback, stage: &str, fraction: f32) -> ControlFlow<()> {
-    match callback.report(stage, fraction).await {
+async fn tell(callback: &ProgressCallback, stage: Stage, fraction: f32) -> ControlFlow<()> {
+    match callback.report(stage.name(), fraction).await {
         Ok(answer) if answer.is_truthy() => ControlFlow::Continue(()),
         // A callback that fails cannot be asked to cancel any more.
         _ => ControlFlow::Break(()),

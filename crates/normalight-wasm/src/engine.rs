@@ -2,11 +2,12 @@
 use crate::callback::{ProgressCallback, ProgressObserver};
 use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
-use crate::result::{Run, result};
+use crate::result::{Estimated, Run};
 use crate::settings::Settings;
 use burn::tensor::Device;
 use normalight_io::{NamedBytes, RunDescription, read_stack};
 use normalight_model::{Estimator, default_weights};
+use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
 /// The shipped networks on a device.
@@ -57,10 +58,10 @@ impl Engine {
         files: Vec<InputFile>,
         mask: Option<InputFile>,
         lights: Option<InputFile>,
-        settings: JsValue,
+        settings: Ts<Settings>,
         callback: ProgressCallback,
-    ) -> Result<JsValue, Failure> {
-        let settings = Settings::from_js(settings)?;
+    ) -> Result<Ts<Estimated>, Failure> {
+        let settings = settings.to_rust()?;
         let mut observer = ProgressObserver::start(&callback)
             .await
             .ok_or(Failure::Cancelled)?;
@@ -92,10 +93,11 @@ impl Engine {
             normal_format: settings.normal_format,
             seconds: observer.finish(),
         };
-        result(&Run {
+        let run = Run {
             input: &input,
             estimate: &estimate,
             report: description.report(&input),
-        })
+        };
+        Ok(Estimated::new(&run)?.into_ts()?)
     }
 }

@@ -2,6 +2,8 @@
 use normalight_io::IoError;
 use normalight_model::ModelError;
 use serde::Serialize;
+use std::error::Error;
+use tsify::Tsify;
 use wasm_bindgen::JsValue;
 
 /// A failure on its way to JavaScript, where it becomes `{ kind, message }`.
@@ -15,9 +17,20 @@ pub enum Failure {
     Device(String),
 }
 
-#[derive(Serialize)]
+/// What failed: the given files or settings, nothing (the run was stopped), or the device or the networks.
+#[derive(Serialize, Tsify)]
+#[serde(rename_all = "lowercase")]
+enum FailureKind {
+    Input,
+    Cancelled,
+    Device,
+}
+
+/// What the module throws.
+#[derive(Serialize, Tsify)]
 struct Thrown {
-    kind: &'static str,
+    kind: FailureKind,
+    /// In a sentence, with the file.
     message: String,
 }
 
@@ -38,18 +51,22 @@ impl From<ModelError> for Failure {
 }
 
 /// Settings that cannot be read, or a result that JavaScript cannot hold.
-impl From<serde_wasm_bindgen::Error> for Failure {
-    fn from(error: serde_wasm_bindgen::Error) -> Self {
-        Self::Input(format!("settings: {error}"))
+impl From<tsify::Error> for Failure {
+    fn from(error: tsify::Error) -> Self {
+        // Without tsify's words about Rust's types.
+        let reason = error
+            .source()
+            .map_or_else(|| error.to_string(), ToString::to_string);
+        Self::Input(format!("settings: {reason}"))
     }
 }
 
 impl From<Failure> for JsValue {
     fn from(failure: Failure) -> Self {
         let (kind, message) = match failure {
-            Failure::Input(message) => ("input", message),
-            Failure::Cancelled => ("cancelled", ModelError::Cancelled.to_string()),
-            Failure::Device(message) => ("device", message),
+            Failure::Input(message) => (FailureKind::Input, message),
+            Failure::Cancelled => (FailureKind::Cancelled, ModelError::Cancelled.to_string()),
+            Failure::Device(message) => (FailureKind::Device, message),
         };
         let thrown = Thrown { kind, message };
         serde_wasm_bindgen::to_value(&thrown).unwrap_or_else(|_| thrown.message.into())

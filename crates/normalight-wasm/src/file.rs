@@ -2,6 +2,7 @@
 use js_sys::Uint8Array;
 use normalight_io::NamedBytes;
 use serde::Serialize;
+use tsify::Tsify;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -36,18 +37,22 @@ pub(crate) fn named_bytes(files: Vec<InputFile>) -> Vec<NamedBytes> {
     files.into_iter().map(NamedBytes::from).collect()
 }
 
-/// A file that was made here.
-#[derive(Serialize)]
+/// A file to keep.
+#[derive(Debug, Serialize, Tsify)]
 pub(crate) struct OutputFile {
-    name: String,
+    /// File name.
+    #[tsify(type = "OutputName")]
+    name: &'static str,
+    /// Content.
     #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Uint8Array<ArrayBuffer>")]
     bytes: Uint8Array,
 }
 
 impl OutputFile {
-    pub(crate) fn new(name: &str, bytes: &[u8]) -> Self {
+    pub(crate) fn new(name: &'static str, bytes: &[u8]) -> Self {
         Self {
-            name: name.to_owned(),
+            name,
             bytes: Uint8Array::from(bytes),
         }
     }

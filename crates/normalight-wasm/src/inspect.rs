@@ -4,20 +4,29 @@ use crate::file::{InputFile, named_bytes};
 use js_sys::Uint8Array;
 use normalight_io::{ColorMode, NamedBytes, decode_image, find_list, plan_stack, read_text};
 use serde::Serialize;
+use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
-/// Positions among the files.
-#[derive(Serialize)]
-struct Plan {
+/// Which of some files are the photographs, and which is the mask.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Plan {
+    /// Positions of the images among the files, in the order of the stack.
     images: Vec<usize>,
+    /// Position of the mask among the files.
+    #[tsify(optional)]
     mask: Option<usize>,
 }
 
-#[derive(Serialize)]
-struct Thumbnail {
+/// A photograph in few pixels.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Thumbnail {
+    /// In pixels.
     width: usize,
+    /// In pixels.
     height: usize,
+    /// 8-bit sRGB with full alpha; rows from the top.
     #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Uint8Array<ArrayBuffer>")]
     rgba: Uint8Array,
 }
 
@@ -27,7 +36,7 @@ struct Thumbnail {
 /// # Errors
 /// A list among the files that is wrong or too long.
 #[wasm_bindgen]
-pub fn plan(files: Vec<InputFile>) -> Result<JsValue, Failure> {
+pub fn plan(files: Vec<InputFile>) -> Result<Ts<Plan>, Failure> {
     let files = named_bytes(files);
     let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
     let list = find_list(&names, |index| {
@@ -38,10 +47,11 @@ pub fn plan(files: Vec<InputFile>) -> Result<JsValue, Failure> {
         .as_ref()
         .map(|(index, text)| (names[*index], text.as_str()));
     let plan = plan_stack(&names, list)?;
-    Ok(serde_wasm_bindgen::to_value(&Plan {
+    let plan = Plan {
         images: plan.images,
         mask: plan.mask,
-    })?)
+    };
+    Ok(plan.into_ts()?)
 }
 
 /// One photograph with its longer side brought down to `side` pixels; `color` says how its samples
@@ -50,14 +60,19 @@ pub fn plan(files: Vec<InputFile>) -> Result<JsValue, Failure> {
 /// # Errors
 /// A file that is no complete image of a known format.
 #[wasm_bindgen]
-pub fn thumbnail(file: InputFile, color: JsValue, side: usize) -> Result<JsValue, Failure> {
-    let color: ColorMode = serde_wasm_bindgen::from_value(color)?;
+pub fn thumbnail(
+    file: InputFile,
+    color: Ts<ColorMode>,
+    side: usize,
+) -> Result<Ts<Thumbnail>, Failure> {
+    let color = color.to_rust()?;
     let NamedBytes { name, bytes } = file.into();
     let image = decode_image(&name, &bytes, color)?.image;
     let small = normalight_io::thumbnail(&image, side);
-    Ok(serde_wasm_bindgen::to_value(&Thumbnail {
+    let thumbnail = Thumbnail {
         width: small.width,
         height: small.height,
         rgba: Uint8Array::from(small.rgba.as_slice()),
-    })?)
+    };
+    Ok(thumbnail.into_ts()?)
 }

@@ -10,10 +10,13 @@ mod file;
 mod inspect;
 mod result;
 mod settings;
+mod stage;
 mod start;
 
 pub use callback::ProgressCallback;
 pub use engine::Engine;
 pub use file::InputFile;
-pub use inspect::{plan, thumbnail};
+pub use inspect::{Plan, Thumbnail, plan, thumbnail};
+pub use result::Estimated;
+pub use settings::{MaskSetting, Settings};
 pub use start::start;

@@ -6,7 +6,7 @@ use normalight_core::MaskSource;
 use normalight_io::{Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files};
 use normalight_model::{Estimate, Quality};
 use serde::Serialize;
-use wasm_bindgen::JsValue;
+use tsify::Tsify;
 
 /// A finished run and what it was made from.
 pub(crate) struct Run<'a> {
@@ -15,30 +15,50 @@ pub(crate) struct Run<'a> {
     pub(crate) report: Report,
 }
 
-#[derive(Serialize)]
+/// What an estimation gives.
+#[derive(Debug, Serialize, Tsify)]
 #[serde(rename_all = "camelCase")]
-struct Estimated<'a> {
+#[tsify(rename = "Estimate")]
+pub struct Estimated {
+    /// In pixels.
     width: usize,
+    /// In pixels.
     height: usize,
-    lights: Vec<LightRow<'a>>,
-    mask: Mask<'a>,
-    device: &'a str,
+    /// One per image used, in order.
+    #[tsify(type = "Light[]")]
+    lights: Vec<LightRow>,
+    /// Which pixels were taken for the object, and how many.
+    mask: MaskReport,
+    /// What computed.
+    device: String,
+    /// Over how many views it was averaged.
     quality: Quality,
-    seconds: &'a [StageSeconds],
+    /// Time of each stage, in the order they ran.
+    seconds: Vec<StageSeconds>,
+    /// Unit normals: x right, y up, z to the camera; zero outside the object.
     normal_map: FloatMap,
+    /// Linear RGB up to one scale; zero outside the object.
     albedo_map: FloatMap,
+    /// The normals as 8-bit RGBA, transparent outside the object; rows from the top.
     #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Uint8Array<ArrayBuffer>")]
     normals: Uint8Array,
+    /// The albedo as 8-bit sRGB with alpha; rows from the top.
     #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Uint8Array<ArrayBuffer>")]
     albedo: Uint8Array,
+    /// Files to keep.
     files: Vec<OutputFile>,
 }
 
-/// Numbers with their shape.
-#[derive(Serialize)]
+/// Numbers with their shape, rows from the top.
+#[derive(Debug, Serialize, Tsify)]
 struct FloatMap {
+    /// Row after row, three numbers a pixel.
     #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Float32Array<ArrayBuffer>")]
     data: Float32Array,
+    /// `[height, width, 3]`.
     shape: [usize; 3],
 }
 
@@ -53,74 +73,101 @@ impl FloatMap {
     }
 }
 
-#[derive(Serialize)]
-struct LightRow<'a> {
-    file: &'a str,
+/// The light of one photograph: a unit vector from the object to the light, x right, y up, z to the camera.
+#[derive(Debug, Serialize, Tsify)]
+#[tsify(rename = "Light")]
+struct LightRow {
+    /// The photograph's file name.
+    file: String,
     x: f32,
     y: f32,
     z: f32,
+    /// Brightness relative to the mean of the stack.
     intensity: f32,
+    /// 0 (no idea) to 1 (certain).
     confidence: f32,
 }
 
-#[derive(Serialize)]
-struct Mask<'a> {
-    source: &'static str,
-    words: &'a str,
+/// Which pixels were taken for the object.
+#[derive(Debug, Serialize, Tsify)]
+struct MaskReport {
+    /// Where the mask came from.
+    source: MaskOrigin,
+    /// The mask's file name, or the source in words.
+    words: String,
+    /// How many pixels it has.
     pixels: usize,
 }
 
-pub(crate) fn result(run: &Run<'_>) -> Result<JsValue, Failure> {
-    let Run {
-        input,
-        estimate,
-        report,
-    } = run;
-    let (width, height) = (input.stack.width(), input.stack.height());
-    let lights = report.inputs.iter().zip(&estimate.lights);
-    let normals = normals_rgba(&estimate.normals, report.settings.normal_format);
-    let albedo = albedo_rgba(&estimate.albedo, width, height)?;
-    Ok(serde_wasm_bindgen::to_value(&Estimated {
-        width,
-        height,
-        lights: lights
-            .map(|(file, light)| LightRow {
-                file,
-                x: light.direction.x,
-                y: light.direction.y,
-                z: light.direction.z,
-                intensity: light.mean_intensity(),
-                confidence: light.confidence,
-            })
-            .collect(),
-        mask: Mask {
-            source: source_word(&input.mask_source),
-            words: input.mask_label(),
-            pixels: input.mask.count(),
-        },
-        device: &report.device,
-        quality: report.settings.quality,
-        seconds: &report.seconds,
-        normal_map: FloatMap::new(width, height, |pixel| {
-            estimate.normals.normals()[pixel].to_array()
-        }),
-        albedo_map: FloatMap::new(width, height, |pixel| {
-            [0, 1, 2].map(|channel| estimate.albedo[channel * width * height + pixel])
-        }),
-        normals: Uint8Array::from(normals.as_slice()),
-        albedo: Uint8Array::from(albedo.as_slice()),
-        files: result_files(input, estimate, report)?
-            .iter()
-            .map(|(name, bytes)| OutputFile::new(name, bytes))
-            .collect(),
-    })?)
+/// Where a mask came from: a file, transparency, a guess by brightness, or nowhere: the whole frame.
+#[derive(Debug, Serialize, Tsify)]
+#[serde(rename_all = "lowercase")]
+enum MaskOrigin {
+    File,
+    Alpha,
+    Guessed,
+    None,
 }
 
-fn source_word(source: &MaskSource) -> &'static str {
-    match source {
-        MaskSource::File(_) => "file",
-        MaskSource::Alpha => "alpha",
-        MaskSource::Guessed => "guessed",
-        MaskSource::WholeFrame => "none",
+impl From<&MaskSource> for MaskOrigin {
+    fn from(source: &MaskSource) -> Self {
+        match source {
+            MaskSource::File(_) => Self::File,
+            MaskSource::Alpha => Self::Alpha,
+            MaskSource::Guessed => Self::Guessed,
+            MaskSource::WholeFrame => Self::None,
+        }
+    }
+}
+
+impl Estimated {
+    /// Of a finished run.
+    ///
+    /// # Errors
+    /// A map that its file format cannot hold.
+    pub(crate) fn new(run: &Run<'_>) -> Result<Self, Failure> {
+        let Run {
+            input,
+            estimate,
+            report,
+        } = run;
+        let (width, height) = (input.stack.width(), input.stack.height());
+        let lights = report.inputs.iter().zip(&estimate.lights);
+        let normals = normals_rgba(&estimate.normals, report.settings.normal_format);
+        let albedo = albedo_rgba(&estimate.albedo, width, height)?;
+        Ok(Self {
+            width,
+            height,
+            lights: lights
+                .map(|(file, light)| LightRow {
+                    file: file.clone(),
+                    x: light.direction.x,
+                    y: light.direction.y,
+                    z: light.direction.z,
+                    intensity: light.mean_intensity(),
+                    confidence: light.confidence,
+                })
+                .collect(),
+            mask: MaskReport {
+                source: MaskOrigin::from(&input.mask_source),
+                words: input.mask_label().to_owned(),
+                pixels: input.mask.count(),
+            },
+            device: report.device.clone(),
+            quality: report.settings.quality,
+            seconds: report.seconds.clone(),
+            normal_map: FloatMap::new(width, height, |pixel| {
+                estimate.normals.normals()[pixel].to_array()
+            }),
+            albedo_map: FloatMap::new(width, height, |pixel| {
+                [0, 1, 2].map(|channel| estimate.albedo[channel * width * height + pixel])
+            }),
+            normals: Uint8Array::from(normals.as_slice()),
+            albedo: Uint8Array::from(albedo.as_slice()),
+            files: result_files(input, estimate, report)?
+                .iter()
+                .map(|(name, bytes)| OutputFile::new(name, bytes))
+                .collect(),
+        })
     }
 }

@@ -1,26 +1,32 @@
 //! Settings as JavaScript words.
-use crate::error::Failure;
 use normalight_core::RefitSettings;
 use normalight_io::{ColorMode, MaskChoice, NamedBytes, NormalFormat, ReadOptions};
 use normalight_model::{EstimateSettings, Quality};
 use serde::{Deserialize, Serialize};
-use wasm_bindgen::JsValue;
+use tsify::Tsify;
 
 /// How to estimate; everything may be left out.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Tsify)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
-pub(crate) struct Settings {
+pub struct Settings {
+    /// How samples relate to light.
     pub(crate) color: ColorMode,
-    pub(crate) mask: Mask,
+    /// Which pixels belong to the object, where no file says so.
+    pub(crate) mask: MaskSetting,
+    /// Use only this many images, evenly spaced.
     pub(crate) images: Option<usize>,
+    /// Which way green points in `normals.png` and the preview.
     pub(crate) normal_format: NormalFormat,
+    /// Refit the lights to the normals, and the normals to them.
     pub(crate) refit: bool,
+    /// Over how many views of the photographs lights and normals are averaged.
     pub(crate) quality: Quality,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// Which pixels belong to the object, where no file says so.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Tsify)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Mask {
+pub enum MaskSetting {
     /// A file that is handed in counts, else what is among the files, else a guess.
     #[default]
     Auto,
@@ -32,7 +38,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             color: ColorMode::default(),
-            mask: Mask::default(),
+            mask: MaskSetting::default(),
             images: None,
             normal_format: NormalFormat::default(),
             refit: true,
@@ -42,17 +48,13 @@ impl Default for Settings {
 }
 
 impl Settings {
-    pub(crate) fn from_js(value: JsValue) -> Result<Self, Failure> {
-        Ok(serde_wasm_bindgen::from_value(value)?)
-    }
-
     pub(crate) fn reading(&self, mask: Option<NamedBytes>) -> ReadOptions {
         ReadOptions {
             color: self.color,
             mask: match (mask, self.mask) {
                 (Some(file), _) => MaskChoice::File(file),
-                (None, Mask::Auto) => MaskChoice::Auto,
-                (None, Mask::None) => MaskChoice::WholeFrame,
+                (None, MaskSetting::Auto) => MaskChoice::Auto,
+                (None, MaskSetting::None) => MaskChoice::WholeFrame,
             },
             images: self.images,
         }
