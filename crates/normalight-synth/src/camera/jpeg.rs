@@ -1,5 +1,5 @@
-use super::Visible;
 use super::srgb::SrgbCodes;
+use super::visible::Visible;
 
 /// Side of a block.
 const BLOCK: usize = 8;
