@@ -36,11 +36,11 @@ pub fn release_kept_memory() {
 
 /// Buffers given back.
 struct Unused {
-    /// By their number of lines; of a size the last one given back comes first, as it may still be in the cache.
+    /// By their number of lines; among equals the last one given back comes first, as it may still be in the cache.
     stacks: BTreeMap<usize, Vec<Vec<Line>>>,
-    /// Lines of all.
+    /// Lines of all buffers together.
     total: usize,
-    /// Most of them.
+    /// Most lines that are kept.
     limit: usize,
 }
 

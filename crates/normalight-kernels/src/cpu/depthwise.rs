@@ -80,7 +80,7 @@ impl Depthwise {
         output
     }
 
-    /// Gradients of input and weight (`[channels, size, size]`; zeros where it is not wanted).
+    /// Gradients of input and weight (`[channels, size, size]`; zeros when it is not asked for).
     pub(crate) fn backward(
         &self,
         input: &[f32],

@@ -1,4 +1,4 @@
-//! Convolutions of any size and stride as matrix products over a copy of the rows that are seen.
+//! Convolutions of any size and stride as matrix products over a copy of the rows that the kernel sees.
 use crate::cpu::buffer::Buffer;
 use crate::cpu::geometry::{Filter, Geometry, Part, PartGradients};
 use crate::cpu::product::{Finish, Left, Product, Right};

@@ -88,7 +88,7 @@ impl Geometry {
 /// Weights, bias and activation of a convolution.
 #[derive(Clone, Copy)]
 pub(crate) struct Filter<'a> {
-    /// In the order that the way of computing asks for.
+    /// In the order that the algorithm needs.
     pub(crate) weight: &'a [f32],
     /// `[channels_out]`.
     pub(crate) bias: &'a [f32],
@@ -105,7 +105,7 @@ pub(crate) struct Part<'a> {
     pub(crate) transposed: &'a [f32],
     /// `[images, out_height, out_width, channels_out]`.
     pub(crate) output: &'a [f32],
-    /// Of the output.
+    /// Gradient of the output, of its shape.
     pub(crate) gradient: &'a [f32],
     pub(crate) slope: f32,
     pub(crate) wants_bias: bool,

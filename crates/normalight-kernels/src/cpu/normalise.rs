@@ -15,7 +15,7 @@ pub(crate) struct Moments {
     pub(crate) variance: Vec<f32>,
 }
 
-/// Values of the channels, again and again.
+/// Values of the channels, repeated until there are `period` of them.
 fn repeated(values: &[f32], period: usize) -> Vec<f32> {
     values.iter().copied().cycle().take(period).collect()
 }

@@ -13,7 +13,7 @@ use burn::tensor::{Tensor, activation};
 /// - output: `[batch, ceil(upsampling * height / stride), ceil(upsampling * width / stride), channels_out]`
 ///
 /// # Panics
-/// If the shapes do not fit, as Burn's own operations.
+/// If the shapes do not fit, like Burn's own operations.
 pub fn convolution(
     input: Tensor<4>,
     weight: Tensor<4>,

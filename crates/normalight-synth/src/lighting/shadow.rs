@@ -3,7 +3,7 @@ use crate::lanes::{LANES, Lanes, lanes, vectorised};
 use crate::shapes::{View, Window};
 use glam::{Vec2, Vec3};
 
-/// Pixels a side that are walked over together; as wide as the lanes.
+/// Side in pixels of a tile that is walked over together; as wide as the lanes.
 const TILE: usize = LANES;
 /// Pixels around the picture where nothing is.
 const BORDER: usize = TILE;
@@ -116,7 +116,7 @@ impl Shadows {
 
     /// Share of the lamp that every pixel sees: 0 in shadow, 1 lit, between at the border.
     ///
-    /// `[height, width]`; 1 where nothing of the object is
+    /// `[height, width]`; 1 outside the object
     pub(crate) fn lit(&self, lamp: &Lamp) -> Vec<f32> {
         let mut lit = vec![1.0; self.window.width * self.window.height];
         vectorised(

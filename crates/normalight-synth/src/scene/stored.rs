@@ -75,7 +75,7 @@ impl Scene {
     /// [`Scene::reseeded`] must say which samples the scene is for.
     ///
     /// # Errors
-    /// [`SynthError::Stored`].
+    /// [`SynthError::Stored`]: not a stored scene, or one too small for the crops.
     pub fn from_bytes(
         recipe: &SceneRecipe,
         name: &str,
@@ -235,7 +235,7 @@ mod tests {
             ] {
                 assert_eq!((&one.images, &one.mask), (&other.images, &other.mask));
                 assert_eq!((&one.normals, &one.lights), (&other.normals, &other.lights));
-                // Outside the object it is no number, which equals nothing.
+                // Outside the object it is NaN, which does not equal itself.
                 let bits = |depth: &[f32]| depth.iter().map(|z| z.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&one.depth), bits(&other.depth));
             }

@@ -24,7 +24,7 @@ struct Layer {
     to_noise: Mat3,
     offset: Vec3,
     height: f32,
-    /// Cells a unit.
+    /// Cells per unit.
     frequency: f32,
     /// Sharp valleys instead of round bumps.
     ridged: bool,
@@ -32,7 +32,7 @@ struct Layer {
 
 /// What is asked of a layer, before it is laid out at random.
 struct LayerPlan {
-    /// Cells a unit.
+    /// Cells per unit.
     frequency: f32,
     /// Change of the displacement along the surface where it is steep.
     slope: f32,

@@ -4,7 +4,7 @@ use super::window::Window;
 use crate::noise::Lattice;
 use glam::Vec3;
 
-/// Rays of one tile share their start; pixels a side.
+/// Side in pixels of a tile, whose rays share their start.
 const TILE: usize = 8;
 /// Flatter views of the surface than this cosine are left out of the mask: they are seen edge-on,
 /// where one pixel holds both object and background.
@@ -37,11 +37,11 @@ pub(crate) enum Detail {
     All,
 }
 
-/// Pixels that share one ray to the far side, a side: shadows need it only roughly.
+/// Side in pixels of a block that shares one ray to the far side: shadows need it only roughly.
 const BACK_BLOCK: usize = 2;
 
 impl View {
-    /// Follows one ray a pixel down to the surface.
+    /// Follows one ray per pixel down to the surface.
     pub(crate) fn trace(shape: &Shape, window: Window, detail: Detail) -> Self {
         let lattice = Lattice::shared();
         let mut view = Self {
