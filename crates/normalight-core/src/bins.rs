@@ -26,7 +26,7 @@ pub struct IntensityBins {
     pub spacing: IntensitySpacing,
 }
 
-/// The classes in which the light network speaks: azimuth and elevation over (-pi/2, pi/2), and
+/// The classes that the light network predicts: azimuth and elevation over (-pi/2, pi/2), and
 /// intensity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

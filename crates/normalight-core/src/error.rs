@@ -97,7 +97,7 @@ pub enum CoreError {
         /// Number of images.
         expected: usize,
     },
-    /// Two maps that must have one size do not.
+    /// Two maps that must have the same size differ.
     #[error(
         "maps of different sizes: {found_width}x{found_height} against {expected_width}x{expected_height}"
     )]
@@ -122,7 +122,7 @@ pub enum CoreError {
         /// The limit.
         allowed: usize,
     },
-    /// A vertex of a mesh lies nowhere.
+    /// A vertex of a mesh has a coordinate that is NaN or infinite.
     #[error("vertex {vertex} is at {value}, finite numbers are expected")]
     MeshPosition {
         /// Number of the vertex, from 0.
@@ -130,7 +130,7 @@ pub enum CoreError {
         /// Its position.
         value: Vec3,
     },
-    /// A triangle of a mesh names a vertex that is not there.
+    /// A triangle of a mesh names a vertex that does not exist.
     #[error("triangle {triangle} names vertex {index}, but there are {vertices} (from 0)")]
     MeshIndex {
         /// Number of the triangle, from 0.

@@ -29,6 +29,7 @@
 //! ```
 #![deny(missing_docs)]
 
+mod albedo;
 mod angles;
 mod bins;
 mod calibrated;
@@ -48,6 +49,7 @@ mod symmetry;
 mod transfer;
 mod woodham;
 
+pub use albedo::albedo_map;
 pub use angles::{angle_between, direction_from_angles, direction_to_angles};
 pub use bins::{Decoding, IntensityBins, IntensitySpacing, LightBins, LightClasses};
 pub use calibrated::CalibratedStack;
@@ -63,7 +65,7 @@ pub use metrics::{
 pub use normal_map::NormalMap;
 pub use quality::Quality;
 pub use rect::Rect;
-pub use refit::{RefitSettings, albedo_map, refit_lights};
+pub use refit::{RefitSettings, refit_lights};
 pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage, evenly_spaced_indices};
 pub use statistics::StackStatistics;
 pub use symmetry::Symmetry;

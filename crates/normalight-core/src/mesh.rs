@@ -110,7 +110,7 @@ impl TriangleMesh {
 }
 
 /// Normal times twice the area of the triangle with these corners. Double precision: squares of large
-/// coordinates overflow else.
+/// coordinates would overflow otherwise.
 fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

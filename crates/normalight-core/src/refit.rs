@@ -1,11 +1,6 @@
+use crate::albedo::{ALBEDO_QUANTILE, MIN_SHADING, albedo_of, check, thinned};
 use crate::{CoreError, ImageStack, Light, Mask, NormalMap, luminance};
 use glam::{DMat3, DVec3, Vec3};
-
-/// Shading below this carries more noise than signal.
-const MIN_SHADING: f32 = 0.1;
-
-/// Pixels looked at together: bounds the memory, whatever the size of the stack.
-const TILE: usize = 4096;
 
 /// How lights are refitted to normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +19,7 @@ pub struct RefitSettings {
 impl Default for RefitSettings {
     fn default() -> Self {
         Self {
-            albedo_quantile: 0.4,
+            albedo_quantile: ALBEDO_QUANTILE,
             step: 0.25,
             max_pixels: 32_768,
             rounds: 8,
@@ -79,123 +74,6 @@ pub fn refit_lights(
         }
     }
     Ok(refitted)
-}
-
-/// Albedo of every pixel as linear RGB planes, zero outside the mask.
-///
-/// Per pixel and channel the 0.4-quantile over the images of value / (intensity * shading), the
-/// same robust albedo that [`refit_lights`] uses; defined up to one scale.
-///
-/// # Shapes
-/// `[3, height, width]`, row-major.
-///
-/// # Errors
-/// [`CoreError::LightCount`] or [`CoreError::MapSize`].
-pub fn albedo_map(
-    stack: &ImageStack,
-    mask: &Mask,
-    normals: &NormalMap,
-    lights: &[Light],
-) -> Result<Vec<f32>, CoreError> {
-    check(stack, mask, normals, lights)?;
-    let pixels = thinned(mask, usize::MAX);
-    let quantile = RefitSettings::default().albedo_quantile;
-    let albedo = albedo_of(stack, normals, lights, &pixels, quantile);
-    let area = stack.width() * stack.height();
-    let mut planes = vec![0.0; 3 * area];
-    for (&pixel, value) in pixels.iter().zip(albedo) {
-        for (channel, value) in value.into_iter().enumerate() {
-            planes[channel * area + pixel] = value;
-        }
-    }
-    Ok(planes)
-}
-
-fn check(
-    stack: &ImageStack,
-    mask: &Mask,
-    normals: &NormalMap,
-    lights: &[Light],
-) -> Result<(), CoreError> {
-    if lights.len() != stack.len() {
-        return Err(CoreError::LightCount {
-            found: lights.len(),
-            expected: stack.len(),
-        });
-    }
-    for (width, height) in [
-        (normals.width(), normals.height()),
-        (mask.width(), mask.height()),
-    ] {
-        if (width, height) != (stack.width(), stack.height()) {
-            return Err(CoreError::MapSize {
-                found_width: width,
-                found_height: height,
-                expected_width: stack.width(),
-                expected_height: stack.height(),
-            });
-        }
-    }
-    Ok(())
-}
-
-/// Positions of the mask's pixels, evenly thinned to at most `most`.
-fn thinned(mask: &Mask, most: usize) -> Vec<usize> {
-    let all = mask.inside().iter().enumerate();
-    let pixels: Vec<usize> = all
-        .filter_map(|(pixel, &inside)| inside.then_some(pixel))
-        .collect();
-    if pixels.len() <= most {
-        return pixels;
-    }
-    (0..most).map(|k| pixels[k * pixels.len() / most]).collect()
-}
-
-/// RGB albedo at some pixels, tile by tile.
-fn albedo_of(
-    stack: &ImageStack,
-    normals: &NormalMap,
-    lights: &[Light],
-    pixels: &[usize],
-    quantile: f32,
-) -> Vec<[f32; 3]> {
-    let mut albedo = Vec::with_capacity(pixels.len());
-    let mut values = vec![[0.0; 3]; TILE.min(pixels.len())];
-    let mut ratios: Vec<[Vec<f32>; 3]> = vec![Default::default(); values.len()];
-    for tile in pixels.chunks(TILE) {
-        for ratio in ratios.iter_mut().flatten() {
-            ratio.clear();
-        }
-        for (image, light) in lights.iter().enumerate() {
-            let values = &mut values[..tile.len()];
-            stack.linear_pixels(image, tile, values);
-            for ((&pixel, value), ratio) in tile.iter().zip(values).zip(&mut ratios) {
-                let shading = normals.normals()[pixel].dot(light.direction);
-                if shading <= MIN_SHADING {
-                    continue;
-                }
-                for channel in 0..3 {
-                    let unit = light.intensity[channel] * shading;
-                    ratio[channel].push(value[channel] / unit.max(f32::MIN_POSITIVE));
-                }
-            }
-        }
-        for ratio in &mut ratios[..tile.len()] {
-            albedo.push(std::array::from_fn(|channel| {
-                quantile_of(&mut ratio[channel], quantile)
-            }));
-        }
-    }
-    albedo
-}
-
-/// Quantile by selection; 0 for no values.
-fn quantile_of(values: &mut [f32], quantile: f32) -> f32 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let rank = ((values.len() - 1) as f32 * quantile).round() as usize;
-    *values.select_nth_unstable_by(rank, f32::total_cmp).1
 }
 
 /// The vector `v` that minimises the sum of `log(1 + (r / s)^2)` over `r = value - row.v`, with `s`
@@ -256,6 +134,7 @@ fn moved(light: Light, target: Vec3, step: f32) -> Light {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::albedo::{albedo_map, quantile_of};
     use crate::{
         Samples, StackImage, Transfer, direction_from_angles, intensity_error, mean_light_error,
     };

@@ -1,48 +1,11 @@
+mod image;
+
+pub use image::{Samples, StackImage};
+
 use crate::{CoreError, Mask, Rect, Transfer};
 
 /// Fewest photographs that photometric stereo works with.
 pub const MIN_IMAGES: usize = 3;
-
-/// Smallest side of an image, in pixels.
-const MIN_SIDE: usize = 4;
-
-/// Samples of one image as decoded: rows from the top, channels interleaved.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Samples {
-    /// 8 bits, 255 is full scale.
-    U8(Vec<u8>),
-    /// 16 bits, 65535 is full scale.
-    U16(Vec<u16>),
-    /// Floating point, already linear whatever the transfer says.
-    F32(Vec<f32>),
-}
-
-impl Samples {
-    fn len(&self) -> usize {
-        match self {
-            Samples::U8(samples) => samples.len(),
-            Samples::U16(samples) => samples.len(),
-            Samples::F32(samples) => samples.len(),
-        }
-    }
-}
-
-/// One photograph of a stack.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StackImage {
-    /// File name, for messages and for `lights.csv`.
-    pub name: String,
-    /// Width in pixels.
-    pub width: usize,
-    /// Height in pixels.
-    pub height: usize,
-    /// 1 (grey) or 3 (RGB).
-    pub channels: usize,
-    /// width * height * channels samples.
-    pub samples: Samples,
-    /// How the samples relate to light.
-    pub transfer: Transfer,
-}
 
 /// Photographs of one object from a fixed camera, one light each.
 ///
@@ -63,7 +26,7 @@ impl ImageStack {
     /// samples, NaN or infinite samples.
     pub fn new(images: Vec<StackImage>) -> Result<Self, CoreError> {
         for image in &images {
-            check_image(image, &images[0])?;
+            image.check(&images[0])?;
         }
         if images.len() < MIN_IMAGES {
             return Err(CoreError::TooFewImages {
@@ -113,23 +76,7 @@ impl ImageStack {
     pub fn linear_tile(&self, image: usize, rect: Rect, out: &mut [f32]) {
         assert!(rect.x + rect.width <= self.width() && rect.y + rect.height <= self.height());
         assert_eq!(out.len(), 3 * rect.area());
-        let image = &self.images[image];
-        match &image.samples {
-            Samples::U8(samples) => match image.transfer {
-                Transfer::Linear => {
-                    copy_tile(image, samples, rect, out, |code| f32::from(code) / 255.0);
-                }
-                Transfer::Srgb => {
-                    copy_tile(image, samples, rect, out, |code| {
-                        self.srgb8[usize::from(code)]
-                    });
-                }
-            },
-            Samples::U16(samples) => copy_tile(image, samples, rect, out, |code| {
-                image.transfer.decode(f32::from(code) / 65535.0)
-            }),
-            Samples::F32(samples) => copy_tile(image, samples, rect, out, |value| value),
-        }
+        self.images[image].linear_tile(&self.srgb8, rect, out);
     }
 
     /// Linear RGB of single pixels of one image, one after the other.
@@ -141,23 +88,7 @@ impl ImageStack {
     /// A position lies outside the image, or `out` has another length.
     pub fn linear_pixels(&self, image: usize, pixels: &[usize], out: &mut [[f32; 3]]) {
         assert_eq!(out.len(), pixels.len());
-        let image = &self.images[image];
-        match &image.samples {
-            Samples::U8(samples) => match image.transfer {
-                Transfer::Linear => {
-                    copy_pixels(image, samples, pixels, out, |code| f32::from(code) / 255.0);
-                }
-                Transfer::Srgb => {
-                    copy_pixels(image, samples, pixels, out, |code| {
-                        self.srgb8[usize::from(code)]
-                    });
-                }
-            },
-            Samples::U16(samples) => copy_pixels(image, samples, pixels, out, |code| {
-                image.transfer.decode(f32::from(code) / 65535.0)
-            }),
-            Samples::F32(samples) => copy_pixels(image, samples, pixels, out, |value| value),
-        }
+        self.images[image].linear_pixels(&self.srgb8, pixels, out);
     }
 
     /// The largest linear RGB value of one pixel over all images, for every pixel.
@@ -214,81 +145,6 @@ impl ImageStack {
 pub fn evenly_spaced_indices(total: usize, count: usize) -> Vec<usize> {
     let count = count.min(total);
     (0..count).map(|k| k * total / count).collect()
-}
-
-fn check_image(image: &StackImage, first: &StackImage) -> Result<(), CoreError> {
-    let name = || image.name.clone();
-    if (image.width, image.height) != (first.width, first.height) {
-        return Err(CoreError::SizeMismatch {
-            name: name(),
-            found_width: image.width,
-            found_height: image.height,
-            expected_width: first.width,
-            expected_height: first.height,
-        });
-    }
-    if image.width < MIN_SIDE || image.height < MIN_SIDE {
-        return Err(CoreError::TooSmall {
-            name: name(),
-            width: image.width,
-            height: image.height,
-            expected: MIN_SIDE,
-        });
-    }
-    let expected = image.width * image.height * image.channels;
-    if image.samples.len() != expected || !matches!(image.channels, 1 | 3) {
-        return Err(CoreError::SampleCount {
-            name: name(),
-            found: image.samples.len(),
-            expected,
-        });
-    }
-    if let Samples::F32(samples) = &image.samples
-        && let Some(index) = samples.iter().position(|value| !value.is_finite())
-    {
-        return Err(CoreError::NotFinite {
-            name: name(),
-            index,
-            value: samples[index],
-        });
-    }
-    Ok(())
-}
-
-fn copy_tile<T: Copy>(
-    image: &StackImage,
-    samples: &[T],
-    rect: Rect,
-    out: &mut [f32],
-    decode: impl Fn(T) -> f32,
-) {
-    let channels = image.channels;
-    for (channel, plane) in out.chunks_exact_mut(rect.area()).enumerate() {
-        let source_channel = channel.min(channels - 1);
-        for (row, line) in plane.chunks_exact_mut(rect.width).enumerate() {
-            let start = ((rect.y + row) * image.width + rect.x) * channels;
-            let source = &samples[start..start + rect.width * channels];
-            for (value, pixel) in line.iter_mut().zip(source.chunks_exact(channels)) {
-                // Negative light (possible in EXR) carries no meaning here.
-                *value = decode(pixel[source_channel]).max(0.0);
-            }
-        }
-    }
-}
-
-fn copy_pixels<T: Copy>(
-    image: &StackImage,
-    samples: &[T],
-    pixels: &[usize],
-    out: &mut [[f32; 3]],
-    decode: impl Fn(T) -> f32,
-) {
-    for (value, &pixel) in out.iter_mut().zip(pixels) {
-        let start = pixel * image.channels;
-        *value = std::array::from_fn(|channel| {
-            decode(samples[start + channel.min(image.channels - 1)]).max(0.0)
-        });
-    }
 }
 
 #[cfg(test)]

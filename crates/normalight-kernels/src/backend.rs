@@ -2,12 +2,12 @@
 #[cfg(feature = "autodiff")]
 mod autodiff;
 
-use crate::Convolution;
 use crate::cpu::buffer::Buffer;
 use crate::cpu::depthwise::Depthwise;
 use crate::cpu::geometry::Geometry;
 use crate::cpu::normalise::{self, Moments};
 use crate::cpu::{convolution, max_over_images, transposed};
+use crate::settings::Convolution;
 use burn::backend::tensor::FloatTensor;
 use burn::backend::{Backend, Flex, TensorMetadata, backend_extension};
 use burn::tensor::{DType, TensorData};
@@ -38,10 +38,10 @@ pub(crate) trait KernelBackend: Backend {
     /// `[2, channels]`, mean and variance; without gradients.
     fn channel_moments(input: FloatTensor<Self>) -> FloatTensor<Self>;
 
+    /// `moments` as from `channel_moments`.
     fn batch_norm(
         input: FloatTensor<Self>,
-        mean: FloatTensor<Self>,
-        variance: FloatTensor<Self>,
+        moments: FloatTensor<Self>,
         gamma: FloatTensor<Self>,
         beta: FloatTensor<Self>,
         epsilon: f32,
@@ -113,10 +113,14 @@ fn depthwise(input: &FlexTensor, weight: &FlexTensor, stride: usize) -> Depthwis
     }
 }
 
-fn moments(mean: &FlexTensor, variance: &FlexTensor) -> Moments {
+/// Mean and variance from `[2, channels]`.
+fn split_moments(both: &FlexTensor) -> Moments {
+    let both = both.to_contiguous();
+    let values: &[f32] = both.storage();
+    let (mean, variance) = values.split_at(values.len() / 2);
     Moments {
-        mean: mean.to_contiguous().storage().to_vec(),
-        variance: variance.to_contiguous().storage().to_vec(),
+        mean: mean.to_vec(),
+        variance: variance.to_vec(),
     }
 }
 
@@ -124,9 +128,9 @@ fn moments(mean: &FlexTensor, variance: &FlexTensor) -> Moments {
 fn max_with_index(input: &FlexTensor, samples: usize) -> (FlexTensor, Vec<u32>) {
     let [rows, height, width, channels] = dims(input);
     let size = height * width * channels;
-    let (most, which) =
+    let (largest, which) =
         max_over_images::forward(input.to_contiguous().storage(), rows / samples, size);
-    (tensor(most, &[samples, height, width, channels]), which)
+    (tensor(largest, &[samples, height, width, channels]), which)
 }
 
 impl KernelBackend for Flex {
@@ -192,14 +196,13 @@ impl KernelBackend for Flex {
 
     fn batch_norm(
         input: FlexTensor,
-        mean: FlexTensor,
-        variance: FlexTensor,
+        moments: FlexTensor,
         gamma: FlexTensor,
         beta: FlexTensor,
         epsilon: f32,
     ) -> FlexTensor {
         let (scale, shift) = normalise::factors(
-            &moments(&mean, &variance),
+            &split_moments(&moments),
             gamma.to_contiguous().storage(),
             beta.to_contiguous().storage(),
             epsilon,

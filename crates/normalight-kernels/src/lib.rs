@@ -32,11 +32,12 @@ mod backend;
 #[cfg(feature = "flex")]
 mod cpu;
 mod operations;
+mod settings;
 
 #[cfg(feature = "flex")]
 pub use cpu::buffer::{limit_kept_memory, release_kept_memory};
 pub use operations::{
-    BatchMoments, Convolution, batch_norm, channels_first, channels_last, convolution,
-    depthwise_relu, generic, max_over_images, orthogonalised, scale_channels,
-    transposed_convolution,
+    BatchMoments, batch_norm, channels_first, channels_last, convolution, depthwise_relu, generic,
+    max_over_images, orthogonalised, scale_channels, transposed_convolution,
 };
+pub use settings::Convolution;

@@ -6,12 +6,10 @@ mod normalisation;
 mod orthogonalised;
 mod transposed;
 
-pub use convolution::{Convolution, convolution};
+pub use convolution::convolution;
 pub use depthwise::depthwise_relu;
 pub use max_over_images::max_over_images;
 pub use normalisation::{BatchMoments, batch_norm, scale_channels};
-#[cfg(feature = "flex")]
-pub(crate) use orthogonalised::NEWTON_SCHULZ;
 pub use orthogonalised::orthogonalised;
 pub use transposed::transposed_convolution;
 

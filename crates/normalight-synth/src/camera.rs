@@ -2,6 +2,9 @@
 mod jpeg;
 mod optics;
 mod srgb;
+mod visible;
+
+pub(crate) use visible::Visible;
 
 use crate::lanes::vectorised;
 use crate::noise::Deviates;
@@ -40,12 +43,6 @@ enum Storage {
     Srgb8,
     Jpeg(Box<Jpeg>),
     Linear16,
-}
-
-/// The pixels of a square picture that show the object.
-pub(crate) struct Visible<'a> {
-    pub(crate) size: usize,
-    pub(crate) pixels: &'a [u32],
 }
 
 impl Camera {

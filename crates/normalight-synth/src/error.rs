@@ -22,7 +22,7 @@ pub enum SynthError {
         /// Where in the recipe, such as `shapes`.
         field: &'static str,
     },
-    /// A recipe is not what a recipe looks like.
+    /// The text of a recipe is malformed.
     #[error("{}: {message}", file.display())]
     Recipe {
         /// The recipe.
@@ -58,7 +58,7 @@ pub enum SynthError {
         /// What should be there.
         expected: String,
     },
-    /// Photographs that cannot be made a scene of.
+    /// Photographs that no scene can be made of.
     #[error(transparent)]
     Photographs(#[from] normalight_core::CoreError),
     /// Photographs of the wrong shape.

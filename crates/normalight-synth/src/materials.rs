@@ -3,6 +3,7 @@ mod brdf;
 mod material;
 mod measured;
 mod pattern;
+mod surface;
 mod surfaces;
 
 pub(crate) use brdf::shade;
@@ -11,9 +12,9 @@ pub(crate) use measured::Measured;
 pub(crate) use surfaces::Surfaces;
 
 #[cfg(test)]
-pub(crate) fn surface_for_tests(albedo: f32) -> surfaces::Surface {
-    surfaces::Surface {
+pub(crate) fn surface_for_tests(albedo: f32) -> surface::Surface {
+    surface::Surface {
         albedo: glam::Vec3::splat(albedo),
-        ..surfaces::Surface::MATTE
+        ..surface::Surface::MATTE
     }
 }

@@ -82,7 +82,7 @@ impl Random {
             }
             rest -= weight;
         }
-        // Rounding may leave a rest: never an index of no weight.
+        // Rounding may leave a remainder; an index of weight zero must not be drawn.
         let last = weights.iter().rposition(|&weight| weight > 0.0);
         last.unwrap_or(weights.len() - 1)
     }

@@ -2,6 +2,7 @@
 mod check;
 mod meshes;
 mod preset;
+mod ranges;
 
 pub use meshes::MeshFolder;
 pub use preset::Preset;

@@ -65,7 +65,7 @@ impl Renderer {
     /// Two renderers whose meshes differ: each has every second one of the recipe's.
     ///
     /// # Errors
-    /// As of [`Self::new`]; one mesh alone.
+    /// Those of [`Self::new`]; a single mesh, which cannot be divided.
     pub fn halves(recipe: SceneRecipe) -> Result<[Self; 2], SynthError> {
         let whole = Self::new(recipe)?;
         if whole.meshes.len() == 1 {

@@ -5,20 +5,22 @@ mod photographs;
 mod points;
 mod stored;
 mod symmetry;
+mod transport;
 
 pub use photographs::Labelled;
 pub(crate) use points::Points;
 
 use crate::camera::{Camera, Visible};
-use crate::lighting::{Bounces, Lamp, Shadows, lamps, narrow, open_sky, tinted};
-use crate::materials::{Material, Measured, Surfaces, shade};
+use crate::lighting::{Lamp, lamps, tinted};
+use crate::materials::{Material, Measured, Surfaces};
 use crate::random::{Random, Stream};
-use crate::recipe::{SceneRecipe, TransportRecipe};
+use crate::recipe::SceneRecipe;
 use crate::sample::Sample;
 use crate::shapes::{Library, Object, Overlay, View, object};
 use crops::Crops;
 use framing::frame;
 use symmetry::Symmetry;
+use transport::Transport;
 
 /// Least share of a crop that shows the object.
 const MIN_COVER: f32 = 0.4;
@@ -49,17 +51,30 @@ pub struct Scene {
     ///
     /// `[height, width]`
     numbers: Vec<u32>,
+    light: SceneLight,
+    /// Whether the view's depth is that of the object.
+    depth_known: bool,
+}
+
+/// The light that reaches the camera from the visible points of a scene.
+struct SceneLight {
     lamps: Vec<Lamp>,
-    /// Light at lamps of intensity 1.
+    /// At lamps of intensity 1.
     ///
     /// `[lamps][3][points]`
     radiance: Vec<[Vec<f32>; 3]>,
-    /// Light that is the same in all images.
+    /// What is the same in all images.
     ///
     /// `[3][points]`
     ambient: Option<[Vec<f32>; 3]>,
-    /// Whether the view's depth is that of the object.
-    depth_known: bool,
+}
+
+/// Which square of a scene becomes a picture, and how it is turned.
+struct Crop {
+    top: usize,
+    left: usize,
+    size: usize,
+    symmetry: Symmetry,
 }
 
 impl Scene {
@@ -122,12 +137,12 @@ impl Scene {
         let transport = Transport::draw(&recipe.transport, &mut random);
         let mut random = Random::new(context.seed, Stream::Lights);
         let lamps = lamps(&recipe.lights, &mut random, lamp_count, object.reach());
-        let radiance = transport.light(&view, &points, &surfaces, material.measured(), &lamps);
-        let ambient = (transport.ambient > 0.0).then(|| ambient(&points, &surfaces, &transport));
-        let seed = context.seed;
-        let mut scene = Self::new(seed, recipe, view, crops, &points.pixels, lamps, radiance);
-        scene.ambient = ambient;
-        scene
+        let light = SceneLight {
+            radiance: transport.light(&view, &points, &surfaces, &lamps),
+            ambient: transport.ambient(&points, &surfaces),
+            lamps,
+        };
+        Self::new(context.seed, recipe, view, crops, light)
     }
 
     fn new(
@@ -135,13 +150,12 @@ impl Scene {
         recipe: &SceneRecipe,
         view: View,
         crops: Option<Crops>,
-        pixels: &[u32],
-        lamps: Vec<Lamp>,
-        radiance: Vec<[Vec<f32>; 3]>,
+        light: SceneLight,
     ) -> Self {
         let mut numbers = vec![u32::MAX; view.depth.len()];
-        for (number, &pixel) in pixels.iter().enumerate() {
-            numbers[pixel as usize] = number as u32;
+        let visible = (0..view.depth.len()).filter(|&pixel| view.is_inside(pixel));
+        for (number, pixel) in visible.enumerate() {
+            numbers[pixel] = number as u32;
         }
         Self {
             seed,
@@ -149,26 +163,26 @@ impl Scene {
             view,
             crops,
             numbers,
-            lamps,
-            radiance,
-            ambient: None,
+            light,
             depth_known: true,
         }
     }
 
     /// Number of lamps it was rendered with.
     pub fn lamps(&self) -> usize {
-        self.lamps.len()
+        self.light.lamps.len()
     }
 
     /// The same object under the same lamps for other samples: `seed` decides the order of the lamps,
     /// crops, brightness and cameras anew.
     pub fn reseeded(mut self, seed: u64) -> Self {
-        let count = self.lamps.len();
+        let count = self.light.lamps.len();
         let order = Random::new(seed, Stream::Lights).some_of(count, count);
-        self.lamps = order.iter().map(|&lamp| self.lamps[lamp]).collect();
-        let radiance = order.iter().map(|&l| std::mem::take(&mut self.radiance[l]));
-        self.radiance = radiance.collect();
+        self.light.lamps = order.iter().map(|&lamp| self.light.lamps[lamp]).collect();
+        let radiance = order
+            .iter()
+            .map(|&l| std::mem::take(&mut self.light.radiance[l]));
+        self.light.radiance = radiance.collect();
         self.seed = seed;
         self
     }
@@ -176,9 +190,15 @@ impl Scene {
     /// Photographs of the whole picture under the first `images` lamps (at most those rendered).
     pub fn whole(&self, images: usize) -> Sample {
         let mut random = Random::new(self.seed, Stream::Camera);
-        let chosen: Vec<usize> = (0..images.min(self.lamps.len())).collect();
+        let chosen: Vec<usize> = (0..images.min(self.light.lamps.len())).collect();
         let side = self.view.window.width;
-        self.photograph(&chosen, (0, 0), side, Symmetry::NONE, &mut random)
+        let crop = Crop {
+            top: 0,
+            left: 0,
+            size: side,
+            symmetry: Symmetry::NONE,
+        };
+        self.photograph(&chosen, &crop, &mut random)
     }
 
     /// Photographs of crop number `part`: a window, lamps, brightness, exposure and noise of its own.
@@ -189,21 +209,25 @@ impl Scene {
         let crops = self.crops.as_ref().expect("a scene made for crops");
         let seed = self.seed ^ (part as u64 + 1).wrapping_mul(0xa076_1d64_78bd_642f);
         let mut random = Random::new(seed, Stream::Crop);
-        let place = crops.draw(&mut random, MIN_COVER);
-        let symmetry = Symmetry::draw(&mut random);
-        let chosen = random.some_of(self.lamps.len(), images);
-        self.photograph(&chosen, place, crops.size(), symmetry, &mut random)
+        let (top, left) = crops.draw(&mut random, MIN_COVER);
+        let crop = Crop {
+            top,
+            left,
+            size: crops.size(),
+            symmetry: Symmetry::draw(&mut random),
+        };
+        let chosen = random.some_of(self.light.lamps.len(), images);
+        self.photograph(&chosen, &crop, &mut random)
     }
 
-    fn photograph(
-        &self,
-        chosen: &[usize],
-        (top, left): (usize, usize),
-        size: usize,
-        symmetry: Symmetry,
-        random: &mut Random,
-    ) -> Sample {
-        let lamps: Vec<Lamp> = chosen.iter().map(|&lamp| self.lamps[lamp]).collect();
+    fn photograph(&self, chosen: &[usize], crop: &Crop, random: &mut Random) -> Sample {
+        let Crop {
+            top,
+            left,
+            size,
+            symmetry,
+        } = *crop;
+        let lamps: Vec<Lamp> = chosen.iter().map(|&lamp| self.light.lamps[lamp]).collect();
         let mut lights = tinted(&self.recipe.lights, random, &lamps);
         let mut sample = Sample::empty(size, chosen.len());
         // The visible pixels of the crop, in the order of the finished picture.
@@ -230,9 +254,9 @@ impl Scene {
         let mut light = Vec::with_capacity(chosen.len() * 3 * pixels.len());
         for (&lamp, tint) in chosen.iter().zip(&lights) {
             for channel in symmetry.channels {
-                let plane = &self.radiance[lamp][channel];
+                let plane = &self.light.radiance[lamp][channel];
                 let intensity = tint.intensity[channel];
-                match &self.ambient {
+                match &self.light.ambient {
                     None => light.extend(numbers.iter().map(|&n| plane[n as usize] * intensity)),
                     Some(ambient) => light.extend(
                         numbers
@@ -283,76 +307,4 @@ impl Scene {
             }
         }
     }
-}
-
-/// Which light paths a scene has.
-struct Transport {
-    shadows: bool,
-    bounces: bool,
-    ambient: f32,
-}
-
-impl Transport {
-    fn draw(recipe: &TransportRecipe, random: &mut Random) -> Self {
-        Self {
-            shadows: random.chance(recipe.cast_shadow_share),
-            bounces: random.chance(recipe.bounce_share),
-            ambient: if random.chance(recipe.ambient_share) {
-                recipe.ambient * random.unit()
-            } else {
-                0.0
-            },
-        }
-    }
-
-    /// Light of each lamp that reaches the camera.
-    ///
-    /// `[lamps][3][points]`
-    fn light(
-        &self,
-        view: &View,
-        points: &Points,
-        surfaces: &Surfaces,
-        measured: &[Measured],
-        lamps: &[Lamp],
-    ) -> Vec<[Vec<f32>; 3]> {
-        let count = points.normal[0].len();
-        let shadows = self.shadows.then(|| Shadows::new(view));
-        let mut irradiance = Vec::new();
-        let mut radiance = Vec::with_capacity(lamps.len());
-        for lamp in lamps {
-            let mut lit = vec![1.0; count];
-            if let Some(shadows) = &shadows {
-                let all = shadows.lit(lamp);
-                for (lit, &pixel) in lit.iter_mut().zip(&points.pixels) {
-                    *lit = all[pixel as usize];
-                }
-            }
-            narrow(lamp, points, &mut lit);
-            let mut planes = std::array::from_fn(|_| vec![0.0; count]);
-            shade(points, surfaces, measured, lamp, &lit, &mut planes);
-            radiance.push(planes);
-            if self.bounces {
-                lamp.dim(points, &mut lit);
-                irradiance.push(lit);
-            }
-        }
-        if self.bounces {
-            Bounces::new(view, points).add(points, surfaces, &irradiance, &mut radiance);
-        }
-        radiance
-    }
-}
-
-/// What the room's light adds: more on surfaces that face the camera's side, less in grooves.
-fn ambient(points: &Points, surfaces: &Surfaces, transport: &Transport) -> [Vec<f32>; 3] {
-    let facing = points.normal[2].iter().map(|z| 0.5 + 0.5 * z);
-    let mut arriving: Vec<f32> = facing.map(|share| transport.ambient * share).collect();
-    for (arriving, &ratio) in arriving.iter_mut().zip(&points.grooves) {
-        *arriving *= open_sky(ratio);
-    }
-    std::array::from_fn(|channel| {
-        let scattered = surfaces.scattered[channel].iter();
-        scattered.zip(&arriving).map(|(s, a)| s * a).collect()
-    })
 }

@@ -13,8 +13,10 @@ mod relief;
 mod shape;
 mod vessels;
 mod view;
+mod window;
 
 pub(crate) use library::{Library, check_apart};
 pub(crate) use objects::{Object, object};
 pub(crate) use overlay::Overlay;
-pub(crate) use view::{Detail, View, Window};
+pub(crate) use view::{Detail, View};
+pub(crate) use window::Window;

@@ -1,4 +1,5 @@
 //! Recipes as text.
+#![allow(clippy::unwrap_used, reason = "what fails here fails a test")]
 
 use normalight_synth::{Framing, MeshFolder, Preset, Renderer, SceneRecipe, SynthError};
 use std::path::Path;

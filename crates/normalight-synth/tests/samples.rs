@@ -1,4 +1,5 @@
 //! Samples as a user of the crate sees them, against physics written out here.
+#![allow(clippy::unwrap_used, reason = "what fails here fails a test")]
 
 use normalight_core::{Samples, angle_between, least_squares_normals, normal_error};
 use normalight_synth::{

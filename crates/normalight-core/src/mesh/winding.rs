@@ -5,8 +5,8 @@ impl TriangleMesh {
     /// pieces of which some are inside out. Of every connected piece the side that most of its area calls
     /// outside stays outside.
     ///
-    /// Neighbours are two triangles that share a side which no third one has; a surface with one side alone,
-    /// as Moebius's strip, keeps a seam.
+    /// Neighbours are two triangles that share a side which no third one has; a one-sided surface,
+    /// such as a Moebius strip, keeps a seam.
     pub fn oriented(mut self) -> Self {
         let neighbours = self.neighbours();
         let mut turned: Vec<Option<bool>> = vec![None; self.triangles.len()];

@@ -1,10 +1,10 @@
 //! The operations with gradients.
 use super::{
-    FlexTensor, KernelBackend, depthwise, dims, geometry, max_with_index, moments, small_tensor,
-    tensor, transposed_geometry,
+    FlexTensor, KernelBackend, depthwise, dims, geometry, max_with_index, small_tensor,
+    split_moments, tensor, transposed_geometry,
 };
-use crate::Convolution;
 use crate::cpu::{convolution, max_over_images, normalise, transposed};
+use crate::settings::Convolution;
 use burn::backend::autodiff::Autodiff;
 use burn::backend::autodiff::checkpoint::base::Checkpointer;
 use burn::backend::autodiff::checkpoint::strategy::CheckpointStrategy;
@@ -98,14 +98,15 @@ impl Backward<Flex, 3> for TransposedBackward {
         let gradient = gradients.consume::<Flex>(&ops.node).to_contiguous();
         let state = ops.state;
         let geometry = transposed_geometry(&state.input, &state.weight);
-        let found = transposed::backward(
-            &geometry,
-            state.input.to_contiguous().storage(),
-            state.weight.to_contiguous().storage(),
-            state.output.to_contiguous().storage(),
-            gradient.storage(),
-            state.how,
-        );
+        let found = transposed::Backward {
+            geometry: &geometry,
+            input: state.input.to_contiguous().storage(),
+            weight: state.weight.to_contiguous().storage(),
+            output: state.output.to_contiguous().storage(),
+            gradient: gradient.storage(),
+            slope: state.how,
+        }
+        .gradients();
         handed_over!(state, found, ops.parents, gradients);
     }
 }
@@ -145,8 +146,8 @@ impl Backward<Flex, 2> for DepthwiseBackward {
 #[derive(Debug, Clone)]
 struct Normalised {
     input: FlexTensor,
-    mean: FlexTensor,
-    variance: FlexTensor,
+    /// `[2, channels]`.
+    moments: FlexTensor,
     gamma: FlexTensor,
     epsilon: f32,
 }
@@ -168,19 +169,19 @@ impl Backward<Flex, 3> for NormalisationBackward {
         let found = normalise::backward(
             state.input.to_contiguous().storage(),
             gradient.storage(),
-            &moments(&state.mean, &state.variance),
+            &split_moments(&state.moments),
             state.gamma.to_contiguous().storage(),
             state.epsilon,
         );
         let channels = [found.gamma.len()];
-        let [grad_input, of_gamma, of_beta] = ops.parents;
+        let [grad_input, grad_gamma, grad_beta] = ops.parents;
         if let Some(node) = grad_input {
             gradients.register::<Flex>(node.id, tensor(found.input, &dims(&state.input)));
         }
-        if let Some(node) = of_gamma {
+        if let Some(node) = grad_gamma {
             gradients.register::<Flex>(node.id, small_tensor(found.gamma, &channels));
         }
-        if let Some(node) = of_beta {
+        if let Some(node) = grad_beta {
             gradients.register::<Flex>(node.id, small_tensor(found.beta, &channels));
         }
     }
@@ -270,23 +271,20 @@ impl<C: CheckpointStrategy> KernelBackend for Autodiff<Flex, C> {
 
     fn batch_norm(
         input: FloatTensor<Self>,
-        mean: FloatTensor<Self>,
-        variance: FloatTensor<Self>,
+        moments: FloatTensor<Self>,
         gamma: FloatTensor<Self>,
         beta: FloatTensor<Self>,
         epsilon: f32,
     ) -> FloatTensor<Self> {
         let state = Normalised {
             input: input.primitive().clone(),
-            mean: mean.primitive().clone(),
-            variance: variance.primitive().clone(),
+            moments: moments.primitive().clone(),
             gamma: gamma.primitive().clone(),
             epsilon,
         };
         let output = Flex::batch_norm(
             state.input.clone(),
-            state.mean.clone(),
-            state.variance.clone(),
+            state.moments.clone(),
             state.gamma.clone(),
             beta.primitive().clone(),
             epsilon,

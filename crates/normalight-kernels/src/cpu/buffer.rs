@@ -4,7 +4,7 @@ use burn_std::{AccessError, AccessPolicy, AllocationController, AllocationProper
 use std::collections::BTreeMap;
 use std::mem::MaybeUninit;
 use std::ops::{Deref, DerefMut};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A cache line, so that vectors do not straddle two of them.
 #[repr(C, align(64))]
@@ -23,7 +23,7 @@ const KEPT: usize = if cfg!(target_family = "wasm") {
 /// Sets how many bytes of buffers at most are kept for the next operation that needs such memory (by default 1 GiB, in
 /// the browser 128 MiB), and gives back what is above. With 0, every buffer goes back to the system at once.
 pub fn limit_kept_memory(bytes: usize) {
-    let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut unused = unused();
     let limit = bytes / size_of::<Line>();
     unused.limit = limit;
     unused.shrink(limit);
@@ -31,17 +31,16 @@ pub fn limit_kept_memory(bytes: usize) {
 
 /// Gives all memory back that is kept for later operations, which will ask the system for it again. The limit stays.
 pub fn release_kept_memory() {
-    let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
-    unused.shrink(0);
+    unused().shrink(0);
 }
 
 /// Buffers given back.
 struct Unused {
-    /// By their number of lines; of a size the last one given back comes first, as it may still be in the cache.
+    /// By their number of lines; among equals the last one given back comes first, as it may still be in the cache.
     stacks: BTreeMap<usize, Vec<Vec<Line>>>,
-    /// Lines of all.
+    /// Lines of all buffers together.
     total: usize,
-    /// Most of them.
+    /// Most lines that are kept.
     limit: usize,
 }
 
@@ -50,6 +49,11 @@ static UNUSED: Mutex<Unused> = Mutex::new(Unused {
     total: 0,
     limit: KEPT,
 });
+
+/// The common store, also after a panic elsewhere: nothing in it is left half done.
+fn unused() -> MutexGuard<'static, Unused> {
+    UNUSED.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 impl Unused {
     /// One of at least that many lines; a much larger one is better kept for those who need it.
@@ -87,9 +91,7 @@ impl Buffer {
     /// A buffer whose values are left from earlier use: every one must be written.
     pub(crate) fn recycled(length: usize) -> Self {
         let needed = length.div_ceil(LINE);
-        let mut unused = UNUSED.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = unused.take(needed);
-        drop(unused);
+        let found = unused().take(needed);
         let lines = found.unwrap_or_else(|| vec![Line([0.0; LINE]); needed]);
         Self { lines, length }
     }
@@ -118,10 +120,7 @@ impl Drop for Buffer {
         if lines.is_empty() {
             return;
         }
-        UNUSED
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .put(lines);
+        unused().put(lines);
     }
 }
 

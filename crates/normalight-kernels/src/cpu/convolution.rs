@@ -1,6 +1,6 @@
 //! Convolutions with bias and leaky ReLU: the fastest way for each, on all cores.
 use crate::cpu::buffer::Buffer;
-use crate::cpu::geometry::Geometry;
+use crate::cpu::geometry::{Filter, Geometry, Part, PartGradients};
 use crate::cpu::window::add;
 use crate::cpu::{direct, winograd};
 use rayon::prelude::*;
@@ -41,13 +41,23 @@ pub(crate) fn forward(
             blocks.push((first..end, block));
             rest = later;
         }
+        let filter = Filter {
+            weight: &points,
+            bias,
+            slope,
+        };
         blocks.into_par_iter().for_each(|(rows, output)| {
-            winograd::forward(geometry, rows, input, &points, bias, slope, output);
+            winograd::forward(geometry, rows, input, &filter, output);
         });
         return output;
     }
     let line = geometry.out_width() * geometry.channels_out;
     let rows = direct::block(geometry).min(geometry.out_height());
+    let filter = Filter {
+        weight: &weight,
+        bias,
+        slope,
+    };
     output
         .par_chunks_exact_mut(geometry.image_out())
         .zip(input.par_chunks_exact(geometry.image_in()))
@@ -56,7 +66,7 @@ pub(crate) fn forward(
             blocks.for_each(|(block, output)| {
                 let first = block * rows;
                 let rows = first..first + output.len() / line;
-                direct::forward(geometry, rows, image, &weight, bias, slope, output);
+                direct::forward(geometry, rows, image, &filter, output);
             });
         });
     output
@@ -107,11 +117,11 @@ impl Backward<'_> {
             .wants_input
             .then(|| Buffer::recycled(geometry.batch * size_in));
         // Without gradients of the input, as many empty parts.
-        let of_inputs: Vec<&mut [f32]> = match &mut grad_input {
+        let grad_inputs: Vec<&mut [f32]> = match &mut grad_input {
             Some(values) => values.chunks_mut(part * size_in).collect(),
             None => (0..parts).map(|_| Default::default()).collect(),
         };
-        let sums: Vec<(Buffer, Buffer)> = of_inputs
+        let sums: Vec<(Buffer, Buffer)> = grad_inputs
             .into_par_iter()
             .zip(self.input.par_chunks(part * size_in))
             .zip(self.output.par_chunks(part * size_out))
@@ -128,10 +138,15 @@ impl Backward<'_> {
                     slope: self.slope,
                     wants_bias: self.wants_bias,
                 };
+                let mut gradients = PartGradients {
+                    weight: &mut grad_weight,
+                    bias: &mut grad_bias,
+                    input: grad_input,
+                };
                 if by_winograd {
-                    winograd::add_gradients(&part, &mut grad_weight, &mut grad_bias, grad_input);
+                    winograd::add_gradients(&part, &mut gradients);
                 } else {
-                    direct::add_gradients(&part, &mut grad_weight, &mut grad_bias, grad_input);
+                    direct::add_gradients(&part, &mut gradients);
                 }
                 (grad_weight, grad_bias)
             })
@@ -147,21 +162,6 @@ impl Backward<'_> {
             bias: grad_bias,
         }
     }
-}
-
-/// Some images of a batch, and what their gradients are computed from.
-pub(crate) struct Part<'a> {
-    pub(crate) geometry: &'a Geometry,
-    /// `[images, stored height, stored width, channels_in]`.
-    pub(crate) input: &'a [f32],
-    /// `[channels_out, size, size, channels_in]`; for Winograd transformed, `[36, channels_out, channels_in]`.
-    pub(crate) transposed: &'a [f32],
-    /// `[images, out_height, out_width, channels_out]`.
-    pub(crate) output: &'a [f32],
-    /// Of the output.
-    pub(crate) gradient: &'a [f32],
-    pub(crate) slope: f32,
-    pub(crate) wants_bias: bool,
 }
 
 /// Sums of the parts' gradients of weight and bias, always in the same order.

@@ -3,72 +3,20 @@
 //! Rows are flat, `[columns, channels]`, and the weights are repeated along them, so that vectors are full however few
 //! channels there are. For stride 2 the columns of the copied rows are sorted by parity first; then neighbouring outputs
 //! see neighbouring inputs again.
+mod row;
+mod sizes;
+mod weight_sums;
+
+pub(crate) use sizes::Depthwise;
+
 use crate::cpu::buffer::Buffer;
 use crate::cpu::convolution::PARTS;
-use crate::cpu::vectors::{Lanes, WIDEST, period, run};
-use pulp::{Simd, WithSimd};
+use crate::cpu::vectors::run;
 use rayon::prelude::*;
-
-/// The sizes of one depthwise convolution with "same" padding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Depthwise {
-    pub(crate) batch: usize,
-    pub(crate) height: usize,
-    pub(crate) width: usize,
-    pub(crate) channels: usize,
-    /// Side of the kernel: 1, 3 or 5.
-    pub(crate) size: usize,
-    pub(crate) stride: usize,
-}
+use row::Row;
+use weight_sums::WeightSums;
 
 impl Depthwise {
-    /// Kernel sizes that are supported.
-    pub(crate) const SIZES: [usize; 3] = [1, 3, 5];
-
-    pub(crate) fn out_height(&self) -> usize {
-        self.height.div_ceil(self.stride)
-    }
-
-    pub(crate) fn out_width(&self) -> usize {
-        self.width.div_ceil(self.stride)
-    }
-
-    pub(crate) fn image_in(&self) -> usize {
-        self.height * self.width * self.channels
-    }
-
-    pub(crate) fn image_out(&self) -> usize {
-        self.out_height() * self.out_width() * self.channels
-    }
-
-    fn taps(&self) -> usize {
-        self.size * self.size
-    }
-
-    fn period(&self) -> usize {
-        period(self.channels)
-    }
-
-    /// Columns of one parity in a copied row.
-    fn columns(&self) -> usize {
-        self.out_width() + (self.size - 1) / self.stride
-    }
-
-    /// Floats of a copied row: all parities.
-    fn line(&self) -> usize {
-        self.stride * self.columns() * self.channels
-    }
-
-    /// Copied rows of an image.
-    fn rows(&self) -> usize {
-        (self.out_height() - 1) * self.stride + self.size
-    }
-
-    /// Where column `x` of a copied row begins in it.
-    fn column(&self, x: usize) -> usize {
-        (x % self.stride * self.columns() + x / self.stride) * self.channels
-    }
-
     /// Weights along a row: `[taps, period]`.
     ///
     /// # Shapes
@@ -126,13 +74,13 @@ impl Depthwise {
                         let from = (y * self.stride + row) * self.line() + self.column(column);
                         (from, tap * self.period())
                     });
-                    Row::new(&patch, &weight, self.period(), output, taps).compute();
+                    run(Row::new(&patch, &weight, self.period(), output, taps));
                 }
             });
         output
     }
 
-    /// Gradients of input and weight (`[channels, size, size]`; zeros where it is not wanted).
+    /// Gradients of input and weight (`[channels, size, size]`; zeros when it is not asked for).
     pub(crate) fn backward(
         &self,
         input: &[f32],
@@ -157,13 +105,12 @@ impl Depthwise {
                 for ((grad_image, image), gradient) in images {
                     if wants_weight {
                         self.copy(image, &mut patch);
-                        WeightSums {
+                        run(WeightSums {
                             depthwise: self,
                             patch: &patch,
                             gradient,
                             sums: &mut sums,
-                        }
-                        .compute();
+                        });
                     }
                     self.image_gradient(image, gradient, &repeated, grad_image);
                 }
@@ -206,11 +153,11 @@ impl Depthwise {
             .chunks_exact_mut(self.width * channels)
             .zip(image.chunks_exact(self.width * channels));
         for (y, (grad_row, row)) in rows.enumerate() {
-            let patch = y + padding;
+            let padded_row = y + padding;
             for (parity, line) in line.chunks_exact_mut(columns).enumerate() {
                 let taps = (0..self.taps()).filter_map(|tap| {
                     let (row, column) = (tap / self.size, tap % self.size);
-                    let above = patch.checked_sub(row)?;
+                    let above = padded_row.checked_sub(row)?;
                     let fits = above % self.stride == 0
                         && above / self.stride < self.out_height()
                         && column % self.stride == parity;
@@ -220,7 +167,7 @@ impl Depthwise {
                         (from, tap * self.period())
                     })
                 });
-                Row::new(&gradients, weight, self.period(), line, taps).compute();
+                run(Row::new(&gradients, weight, self.period(), line, taps));
             }
             pulp::Arch::new().dispatch(|| {
                 let pixels = grad_row
@@ -238,190 +185,6 @@ impl Depthwise {
                     }
                 }
             });
-        }
-    }
-}
-
-/// One row as a sum over taps of shifted rows times repeated weights.
-struct Row<'a> {
-    values: &'a [f32],
-    weight: &'a [f32],
-    period: usize,
-    out: &'a mut [f32],
-    /// Starts in `values` and in `weight`.
-    taps: [(usize, usize); 25],
-    count: usize,
-}
-
-impl<'a> Row<'a> {
-    fn new(
-        values: &'a [f32],
-        weight: &'a [f32],
-        period: usize,
-        out: &'a mut [f32],
-        starts: impl Iterator<Item = (usize, usize)>,
-    ) -> Self {
-        let mut taps = [(0, 0); 25];
-        let mut count = 0;
-        for (to, from) in taps.iter_mut().zip(starts) {
-            *to = from;
-            count += 1;
-        }
-        Self {
-            values,
-            weight,
-            period,
-            out,
-            taps,
-            count,
-        }
-    }
-
-    fn compute(self) {
-        run(self);
-    }
-
-    fn check(&self) {
-        for (value, weight) in &self.taps[..self.count] {
-            assert!(
-                value + self.out.len() <= self.values.len()
-                    && weight + self.period <= self.weight.len()
-                    && self.period.is_multiple_of(WIDEST),
-                "a row reaches beyond its image"
-            );
-        }
-    }
-}
-
-impl WithSimd for Row<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        self.check();
-        let (lanes, length) = (S::F32_LANES, self.out.len());
-        let mut from = 0;
-        while from + TOGETHER * lanes <= length {
-            if self.period == lanes {
-                self.vectors::<S, TOGETHER, true>(Lanes::all(simd), from);
-            } else {
-                self.vectors::<S, TOGETHER, false>(Lanes::all(simd), from);
-            }
-            from += TOGETHER * lanes;
-        }
-        while from < length {
-            self.vectors::<S, 1, false>(Lanes::new(simd, length - from), from);
-            from += lanes;
-        }
-    }
-}
-
-/// Vectors of a row that are summed together.
-const TOGETHER: usize = 4;
-
-impl Row<'_> {
-    /// `N` vectors from `from` on; all see the same weights if those repeat with every vector (`SAME`).
-    #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
-    #[inline(always)]
-    fn vectors<S: Simd, const N: usize, const SAME: bool>(&mut self, lanes: Lanes<S>, from: usize) {
-        let simd = lanes.simd;
-        let places: [usize; N] = std::array::from_fn(|n| (from + n * S::F32_LANES) % self.period);
-        let mut sums = [simd.splat_f32s(0.0); N];
-        for (value, weight) in &self.taps[..self.count] {
-            // SAFETY: `check` has seen that the row lies inside `values` for every tap, and that a period, which
-            // is made of whole vectors, lies inside `weight`.
-            unsafe {
-                let weight = self.weight.as_ptr().add(*weight);
-                let at = |place: usize| weight.add(place).cast::<S::f32s>().read_unaligned();
-                let same = at(places[0]);
-                for (n, sum) in sums.iter_mut().enumerate() {
-                    let value = value + from + n * S::F32_LANES;
-                    let value = lanes.load(self.values.as_ptr().add(value));
-                    let weight = if SAME { same } else { at(places[n]) };
-                    *sum = simd.mul_add_e_f32s(value, weight, *sum);
-                }
-            }
-        }
-        for (n, sum) in sums.into_iter().enumerate() {
-            // SAFETY: the lanes end with the row.
-            unsafe { lanes.store(self.out.as_mut_ptr().add(from + n * S::F32_LANES), sum) };
-        }
-    }
-}
-
-/// Sums of products of inputs and gradients: `[taps, period]`.
-struct WeightSums<'a> {
-    depthwise: &'a Depthwise,
-    patch: &'a [f32],
-    gradient: &'a [f32],
-    sums: &'a mut [f32],
-}
-
-impl WeightSums<'_> {
-    fn compute(self) {
-        run(self);
-    }
-
-    fn check(&self) {
-        let depthwise = self.depthwise;
-        assert!(
-            self.patch.len() >= depthwise.rows() * depthwise.line()
-                && self.gradient.len() >= depthwise.image_out()
-                && self.sums.len() >= depthwise.taps() * depthwise.period(),
-            "sums reach beyond their image"
-        );
-    }
-}
-
-impl WithSimd for WeightSums<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        self.check();
-        match self.depthwise.size {
-            1 => self.rows::<S, 1>(simd),
-            3 => self.rows::<S, 3>(simd),
-            _ => self.rows::<S, 5>(simd),
-        }
-    }
-}
-
-impl WeightSums<'_> {
-    #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
-    #[inline(always)]
-    fn rows<S: Simd, const K: usize>(&mut self, simd: S) {
-        let depthwise = self.depthwise;
-        let (period, line) = (depthwise.period(), depthwise.line());
-        let width = depthwise.out_width() * depthwise.channels;
-        let starts: [usize; K] = std::array::from_fn(|column| depthwise.column(column));
-        for tap_row in 0..K {
-            for place in (0..period).step_by(S::F32_LANES) {
-                let mut sums = [simd.splat_f32s(0.0); K];
-                for y in 0..depthwise.out_height() {
-                    let patch = (y * depthwise.stride + tap_row) * line;
-                    for from in (place..width).step_by(period) {
-                        let lanes = Lanes::new(simd, width - from);
-                        // SAFETY: `check` has seen the buffers; a shifted row ends inside its line.
-                        unsafe {
-                            let gradient = self.gradient.as_ptr().add(y * width + from);
-                            let gradient = lanes.load(gradient);
-                            for (sum, start) in sums.iter_mut().zip(starts) {
-                                let value = self.patch.as_ptr().add(patch + start + from);
-                                *sum = simd.mul_add_e_f32s(lanes.load(value), gradient, *sum);
-                            }
-                        }
-                    }
-                }
-                for (column, sum) in sums.into_iter().enumerate() {
-                    // SAFETY: a period is made of whole vectors, and `check` has seen the buffer.
-                    unsafe {
-                        let to = (tap_row * K + column) * period + place;
-                        let to = self.sums.as_mut_ptr().add(to).cast::<S::f32s>();
-                        to.write_unaligned(simd.add_f32s(to.read_unaligned(), sum));
-                    }
-                }
-            }
         }
     }
 }

@@ -1,21 +1,20 @@
-//! Convolutions of any size and stride as matrix products over a copy of the rows that are seen.
+//! Convolutions of any size and stride as matrix products over a copy of the rows that the kernel sees.
 use crate::cpu::buffer::Buffer;
-use crate::cpu::convolution::Part;
-use crate::cpu::geometry::Geometry;
+use crate::cpu::geometry::{Filter, Geometry, Part, PartGradients};
 use crate::cpu::product::{Finish, Left, Product, Right};
 use crate::cpu::window::{Window, add, add_window, copy_window};
 use std::ops::Range;
 
 /// Floats of the rows that are copied at a time: a quarter of the second-level cache.
-const SEEN: usize = 1 << 16;
+const PATCH: usize = 1 << 16;
 
 /// Output rows that are worked on together.
 pub(crate) fn block(geometry: &Geometry) -> usize {
     if geometry.pointwise() {
-        return (SEEN / (geometry.out_width() * geometry.channels_in)).max(1);
+        return (PATCH / (geometry.out_width() * geometry.channels_in)).max(1);
     }
     let row = geometry.seen_width() * geometry.channels_in * geometry.stride;
-    (SEEN / row).max(1)
+    (PATCH / row).max(1)
 }
 
 /// What some output rows see.
@@ -32,17 +31,20 @@ fn window(geometry: &Geometry, rows: &Range<usize>) -> Window {
 ///
 /// # Shapes
 /// - image: `[stored height, stored width, channels_in]`
-/// - weight: `[size, size, channels_in, channels_out]`
+/// - filter: weights `[size, size, channels_in, channels_out]`
 /// - output: `[rows, out_width, channels_out]`
 pub(crate) fn forward(
     geometry: &Geometry,
     rows: Range<usize>,
     image: &[f32],
-    weight: &[f32],
-    bias: &[f32],
-    slope: f32,
+    filter: &Filter<'_>,
     output: &mut [f32],
 ) {
+    let Filter {
+        weight,
+        bias,
+        slope,
+    } = *filter;
     let (width, channels_in) = (geometry.out_width(), geometry.channels_in);
     let channels_out = geometry.channels_out;
     let finish = Finish::Activated { bias, slope };
@@ -85,14 +87,8 @@ pub(crate) fn forward(
     }
 }
 
-/// Adds the gradients of weights (`[size, size, channels_in, channels_out]`) and bias, and writes those of the input;
-/// where weights or input are empty, they are not wanted.
-pub(crate) fn add_gradients(
-    part: &Part<'_>,
-    grad_weight: &mut [f32],
-    grad_bias: &mut [f32],
-    grad_input: &mut [f32],
-) {
+/// Adds the gradients of weights and bias, and writes those of the input.
+pub(crate) fn add_gradients(part: &Part<'_>, gradients: &mut PartGradients<'_>) {
     let geometry = part.geometry;
     // Without activation the gradients of the sums are those of the output.
     let copied = part.slope != 1.0 || part.wants_bias;
@@ -104,17 +100,17 @@ pub(crate) fn add_gradients(
         .zip(part.gradient.chunks_exact(geometry.image_out()));
     for (index, ((image, output), gradient)) in images.enumerate() {
         let before: &[f32] = if copied {
-            before_activation(output, gradient, part.slope, grad_bias, &mut before);
+            before_activation(output, gradient, part.slope, gradients.bias, &mut before);
             &before
         } else {
             gradient
         };
-        if !grad_weight.is_empty() {
-            add_to_weight(geometry, image, before, grad_weight);
+        if !gradients.weight.is_empty() {
+            add_to_weight(geometry, image, before, gradients.weight);
         }
-        if !grad_input.is_empty() {
+        if !gradients.input.is_empty() {
             let size = geometry.image_in();
-            let grad_image = &mut grad_input[index * size..(index + 1) * size];
+            let grad_image = &mut gradients.input[index * size..(index + 1) * size];
             grad_image.fill(0.0);
             add_to_image(geometry, part.transposed, before, grad_image);
         }

@@ -1,3 +1,5 @@
+//! What a convolution is computed from: its sizes, its weights, and parts of a batch.
+
 /// The sizes of one convolution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Geometry {
@@ -81,4 +83,41 @@ impl Geometry {
     pub(crate) fn seen_width(&self) -> usize {
         (self.out_width() - 1) * self.stride + self.size
     }
+}
+
+/// Weights, bias and activation of a convolution.
+#[derive(Clone, Copy)]
+pub(crate) struct Filter<'a> {
+    /// In the order that the algorithm needs.
+    pub(crate) weight: &'a [f32],
+    /// `[channels_out]`.
+    pub(crate) bias: &'a [f32],
+    /// Slope of the leaky ReLU below zero; 1 means no activation.
+    pub(crate) slope: f32,
+}
+
+/// Some images of a batch, and what their gradients are computed from.
+pub(crate) struct Part<'a> {
+    pub(crate) geometry: &'a Geometry,
+    /// `[images, stored height, stored width, channels_in]`.
+    pub(crate) input: &'a [f32],
+    /// `[channels_out, size, size, channels_in]`; for Winograd transformed, `[36, channels_out, channels_in]`.
+    pub(crate) transposed: &'a [f32],
+    /// `[images, out_height, out_width, channels_out]`.
+    pub(crate) output: &'a [f32],
+    /// Gradient of the output, of its shape.
+    pub(crate) gradient: &'a [f32],
+    pub(crate) slope: f32,
+    pub(crate) wants_bias: bool,
+}
+
+/// Where the gradients of a [`Part`] go. Those of weights and bias are added to what is there, those of the input are
+/// written; what is empty is not wanted.
+pub(crate) struct PartGradients<'a> {
+    /// `[size, size, channels_in, channels_out]`; for Winograd transformed, `[36, channels_in, channels_out]`.
+    pub(crate) weight: &'a mut [f32],
+    /// `[channels_out]`.
+    pub(crate) bias: &'a mut [f32],
+    /// As the part's input.
+    pub(crate) input: &'a mut [f32],
 }

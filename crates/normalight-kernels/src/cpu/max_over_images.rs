@@ -6,35 +6,36 @@ use rayon::prelude::*;
 const BLOCK: usize = 1 << 10;
 
 /// The maximum over `images` groups of `size` floats for every sample, and the number of the image that has it (the
-/// first of equals). What is no number wins.
+/// first of equals). NaN counts as larger than every number.
 pub(crate) fn forward(input: &[f32], images: usize, size: usize) -> (Buffer, Vec<u32>) {
     let samples = input.len() / (images * size).max(1);
-    let mut most = Buffer::recycled(samples * size);
+    let mut largest = Buffer::recycled(samples * size);
     let mut which = vec![0u32; samples * size];
     let block = size.clamp(1, BLOCK);
-    most.par_chunks_mut(size.max(1))
+    largest
+        .par_chunks_mut(size.max(1))
         .zip(which.par_chunks_mut(size.max(1)))
         .zip(input.par_chunks((images * size).max(1)))
-        .for_each(|((most, which), sample)| {
-            let blocks = most.chunks_mut(block).zip(which.chunks_mut(block));
+        .for_each(|((largest, which), sample)| {
+            let blocks = largest.chunks_mut(block).zip(which.chunks_mut(block));
             pulp::Arch::new().dispatch(|| {
-                for (index, (most, which)) in blocks.enumerate() {
+                for (index, (largest, which)) in blocks.enumerate() {
                     let from = index * block;
-                    most.copy_from_slice(&sample[from..from + most.len()]);
+                    largest.copy_from_slice(&sample[from..from + largest.len()]);
                     for (image, values) in sample.chunks_exact(size).enumerate().skip(1) {
-                        let values = &values[from..from + most.len()];
-                        for ((most, which), value) in
-                            most.iter_mut().zip(which.iter_mut()).zip(values)
+                        let values = &values[from..from + largest.len()];
+                        for ((largest, which), value) in
+                            largest.iter_mut().zip(which.iter_mut()).zip(values)
                         {
-                            let better = *value > *most || value.is_nan();
+                            let better = *value > *largest || value.is_nan();
                             *which = if better { image as u32 } else { *which };
-                            *most = if better { *value } else { *most };
+                            *largest = if better { *value } else { *largest };
                         }
                     }
                 }
             });
         });
-    (most, which)
+    (largest, which)
 }
 
 /// The gradient goes to the image that had the maximum.

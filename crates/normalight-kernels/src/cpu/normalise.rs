@@ -15,7 +15,7 @@ pub(crate) struct Moments {
     pub(crate) variance: Vec<f32>,
 }
 
-/// Values of the channels, again and again.
+/// Values of the channels, repeated until there are `period` of them.
 fn repeated(values: &[f32], period: usize) -> Vec<f32> {
     values.iter().copied().cycle().take(period).collect()
 }
@@ -185,9 +185,9 @@ pub(crate) fn backward(
             }
         }
     }
-    let [beta, products] =
+    let [grad_beta, products] =
         totals.map(|sums| sums.into_iter().map(|sum| sum as f32).collect::<Vec<_>>());
-    let of_gamma: Vec<f32> = products
+    let grad_gamma: Vec<f32> = products
         .iter()
         .zip(&inverse)
         .map(|(sum, inverse)| sum * inverse)
@@ -201,9 +201,11 @@ pub(crate) fn backward(
         .map(|(gamma, inverse)| gamma * inverse)
         .collect();
     let slope: Vec<f32> = (0..channels)
-        .map(|k| -scale[k] * inverse[k] * of_gamma[k] / count)
+        .map(|k| -scale[k] * inverse[k] * grad_gamma[k] / count)
         .collect();
-    let offset: Vec<f32> = (0..channels).map(|k| -scale[k] * beta[k] / count).collect();
+    let offset: Vec<f32> = (0..channels)
+        .map(|k| -scale[k] * grad_beta[k] / count)
+        .collect();
     let [scale, slope, offset] = [scale, slope, offset].map(|values| repeated(&values, period));
     let mut grad_input = Buffer::recycled(input.len());
     grad_input
@@ -229,7 +231,7 @@ pub(crate) fn backward(
         });
     Gradients {
         input: grad_input,
-        gamma: of_gamma,
-        beta,
+        gamma: grad_gamma,
+        beta: grad_beta,
     }
 }

@@ -1,6 +1,5 @@
 //! Newton-Schulz iterations on our own matrix product.
 use crate::cpu::product::{Finish, Left, Product, Right};
-use crate::operations::NEWTON_SCHULZ;
 use rayon::prelude::*;
 
 /// Rows of the output that one thread computes at a time, whole register tiles; also the side of the squares that are
@@ -11,9 +10,13 @@ const BLOCK: usize = 16;
 const DEPTH: usize = 256;
 
 /// Replaces a matrix of `[rows, columns]`, `rows <= columns`, whose singular values are at most 1 by a nearly orthogonal
-/// one with the same singular vectors.
-pub(crate) fn orthogonalise(matrix: &mut Vec<f32>, [rows, columns]: [usize; 2], steps: usize) {
-    let [a, b, c] = NEWTON_SCHULZ;
+/// one with the same singular vectors, by steps of the quintic `a x + b x^3 + c x^5` on the singular values.
+pub(crate) fn orthogonalise(
+    matrix: &mut Vec<f32>,
+    [rows, columns]: [usize; 2],
+    [a, b, c]: [f32; 3],
+    steps: usize,
+) {
     let mut transposed = vec![0.0; rows * columns];
     let [mut square, mut fourth] = [0; 2].map(|_| vec![0.0; rows * rows]);
     let mut next = vec![0.0; rows * columns];

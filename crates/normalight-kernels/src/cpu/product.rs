@@ -224,7 +224,7 @@ impl Tile {
     }
 }
 
-/// Leaky ReLU of a slope of at most 1; what is no number stays so.
+/// Leaky ReLU of a slope of at most 1; NaN stays NaN.
 #[inline(always)]
 pub(crate) fn leaky<S: Simd>(simd: S, value: S::f32s, slope: f32) -> S::f32s {
     let positive = simd.less_than_f32s(simd.splat_f32s(0.0), value);

@@ -10,6 +10,9 @@ pub(crate) const POINTS: usize = SIDE * SIDE;
 /// Output rows and columns of a tile.
 pub(crate) const KEPT: usize = 4;
 
+/// Taps of a kernel.
+pub(crate) const TAPS: usize = 9;
+
 /// What the transforms need.
 pub(crate) trait Arithmetic: Copy {
     /// A number or a vector of numbers.

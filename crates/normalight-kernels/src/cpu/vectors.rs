@@ -83,7 +83,7 @@ impl<S: Simd> Lanes<S> {
     /// written by anyone else meanwhile.
     #[inline(always)]
     pub(crate) unsafe fn store(self, to: *mut f32, value: S::f32s) {
-        // SAFETY: as in `load`, and the caller answers for nobody else looking.
+        // SAFETY: as in `load`, and the caller answers for exclusive access.
         unsafe {
             if self.whole {
                 to.cast::<S::f32s>().write_unaligned(value);

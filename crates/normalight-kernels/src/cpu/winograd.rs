@@ -7,10 +7,10 @@ mod tiles;
 mod weights;
 
 use crate::cpu::buffer::Buffer;
-use crate::cpu::convolution::Part;
-use crate::cpu::geometry::Geometry;
+use crate::cpu::geometry::{Filter, Geometry, Part, PartGradients};
 use crate::cpu::product::{Finish, Left, Product, Right};
-use crate::cpu::transforms::{KEPT, POINTS, SIDE};
+use crate::cpu::transforms::{KEPT, POINTS, SIDE, TAPS};
+use crate::cpu::vectors::run;
 use crate::cpu::window::{Window, add_window, copy_window};
 use std::ops::Range;
 use tiles::{Gather, Points, Scatter, Spread, Write};
@@ -18,9 +18,6 @@ use weights::{WeightGradientTransform, WeightTransform};
 
 /// Floats of a block's transformed tiles, input and output: they stay in the second-level cache.
 const BLOCK: usize = 160_000;
-
-/// Taps of a kernel.
-const TAPS: usize = 9;
 
 /// Channels below which the transforms cost more than they save.
 const FEWEST_CHANNELS: usize = 8;
@@ -42,22 +39,20 @@ pub(crate) fn suits(geometry: &Geometry) -> bool {
 /// - weight: `[3, 3, channels_in, channels_out]`, or the channels the other way round
 pub(crate) fn transform_weights(weight: &[f32]) -> Buffer {
     let mut points = Buffer::recycled(weight.len() / TAPS * POINTS);
-    WeightTransform {
+    run(WeightTransform {
         weight,
         points: &mut points,
-    }
-    .run();
+    });
     points
 }
 
 /// Gradients of the weights from those of [`transform_weights`].
 pub(crate) fn transform_weight_gradients(points: &[f32]) -> Buffer {
     let mut weight = Buffer::recycled(points.len() / POINTS * TAPS);
-    WeightGradientTransform {
+    run(WeightGradientTransform {
         points,
         weight: &mut weight,
-    }
-    .run();
+    });
     weight
 }
 
@@ -104,21 +99,19 @@ impl TileRows {
 ///
 /// # Shapes
 /// - input: all images
-/// - points: [`transform_weights`]
+/// - filter: weights of [`transform_weights`]
 /// - output: the rows' part of the output
 pub(crate) fn forward(
     geometry: &Geometry,
     rows: Range<usize>,
     input: &[f32],
-    points: &[f32],
-    bias: &[f32],
-    slope: f32,
+    filter: &Filter<'_>,
     output: &mut [f32],
 ) {
     let grid = TileRows::new(geometry);
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     let tiles = rows.len() * grid.tiles;
-    let (seen_at, sums_at) = (
+    let (transformed_at, sums_at) = (
         Points {
             tiles,
             channels: channels_in,
@@ -128,15 +121,18 @@ pub(crate) fn forward(
             channels: channels_out,
         },
     );
-    let mut patch = Buffer::recycled(seen_at.floats());
+    let mut transformed = Buffer::recycled(transformed_at.floats());
     let mut sums = Buffer::recycled(sums_at.floats());
-    gather(geometry, &grid, rows.clone(), input, &mut patch);
+    gather(geometry, &grid, rows.clone(), input, &mut transformed);
     for point in 0..POINTS {
         Product {
             size: [tiles, channels_out],
             counts: [1, channels_in],
-            left: Left::rows(&patch[point * seen_at.plane()..], channels_in),
-            right: Right::rows(&points[point * channels_in * channels_out..], channels_out),
+            left: Left::rows(&transformed[point * transformed_at.plane()..], channels_in),
+            right: Right::rows(
+                &filter.weight[point * channels_in * channels_out..],
+                channels_out,
+            ),
             output: &mut sums[point * sums_at.plane()..],
             output_row: channels_out,
             finish: Finish::Stored,
@@ -147,18 +143,17 @@ pub(crate) fn forward(
     for (index, row) in rows.enumerate() {
         let kept = grid.out_rows(geometry, row).len();
         let floats = kept * geometry.width() * channels_out;
-        Write {
+        run(Write {
             points: &sums,
             place: sums_at,
             first: index * grid.tiles,
             tiles: grid.tiles,
             rows: kept,
             columns: geometry.width(),
-            bias,
-            slope,
+            bias: filter.bias,
+            slope: filter.slope,
             out: &mut output[from..from + floats],
-        }
-        .run();
+        });
         from += floats;
     }
 }
@@ -183,32 +178,25 @@ fn gather(
         let image = row / grid.per_image * geometry.image_in();
         let image = &input[image..image + geometry.image_in()];
         copy_window(geometry, window, image, &mut patch);
-        Gather {
+        run(Gather {
             window: &patch,
             columns: window.columns,
             tiles: grid.tiles,
             points,
             place,
             first: index * grid.tiles,
-        }
-        .run();
+        });
     }
 }
 
-/// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and writes those of the input
-/// unless that is empty.
-pub(crate) fn add_gradients(
-    part: &Part<'_>,
-    of_points: &mut [f32],
-    grad_bias: &mut [f32],
-    grad_input: &mut [f32],
-) {
+/// Adds the gradients of weights (transformed, `[36, channels_in, channels_out]`) and bias, and writes those of the input.
+pub(crate) fn add_gradients(part: &Part<'_>, gradients: &mut PartGradients<'_>) {
     let grid = TileRows::new(part.geometry);
     let images = part.output.len() / part.geometry.image_out();
     let rows = images * grid.per_image;
     for first in (0..rows).step_by(grid.block) {
         let block = first..rows.min(first + grid.block);
-        add_block(part, &grid, block, of_points, grad_bias, grad_input);
+        add_block(part, &grid, block, gradients);
     }
 }
 
@@ -216,14 +204,12 @@ fn add_block(
     part: &Part<'_>,
     grid: &TileRows,
     rows: Range<usize>,
-    of_points: &mut [f32],
-    grad_bias: &mut [f32],
-    grad_input: &mut [f32],
+    gradients: &mut PartGradients<'_>,
 ) {
     let geometry = part.geometry;
     let (channels_in, channels_out) = (geometry.channels_in, geometry.channels_out);
     let tiles = rows.len() * grid.tiles;
-    let (seen_at, sums_at) = (
+    let (transformed_at, sums_at) = (
         Points {
             tiles,
             channels: channels_in,
@@ -233,50 +219,49 @@ fn add_block(
             channels: channels_out,
         },
     );
-    let mut patch = Buffer::recycled(seen_at.floats());
+    let mut transformed = Buffer::recycled(transformed_at.floats());
     let mut sums = Buffer::recycled(sums_at.floats());
-    if !of_points.is_empty() {
-        gather(geometry, grid, rows.clone(), part.input, &mut patch);
+    if !gradients.weight.is_empty() {
+        gather(geometry, grid, rows.clone(), part.input, &mut transformed);
     }
     for (index, row) in rows.clone().enumerate() {
         let kept = grid.out_rows(geometry, row);
         let line = geometry.width() * channels_out;
         let from = row / grid.per_image * geometry.image_out() + kept.start * line;
         let place = from..from + kept.len() * line;
-        Spread {
+        run(Spread {
             output: &part.output[place.clone()],
             gradient: &part.gradient[place],
             slope: part.slope,
             rows: kept.len(),
             columns: geometry.width(),
-            bias: grad_bias,
+            bias: gradients.bias,
             points: &mut sums,
             place: sums_at,
             first: index * grid.tiles,
             tiles: grid.tiles,
-        }
-        .run();
+        });
     }
     for point in 0..POINTS {
-        let patch = &mut patch[point * seen_at.plane()..][..tiles * channels_in];
+        let transformed = &mut transformed[point * transformed_at.plane()..][..tiles * channels_in];
         let sums = &sums[point * sums_at.plane()..];
-        if !of_points.is_empty() {
+        if !gradients.weight.is_empty() {
             Product {
                 size: [channels_in, channels_out],
                 counts: [1, tiles],
                 left: Left {
-                    values: patch,
+                    values: transformed,
                     row: 1,
                     steps: [0, channels_in],
                 },
                 right: Right::rows(sums, channels_out),
-                output: &mut of_points[point * channels_in * channels_out..],
+                output: &mut gradients.weight[point * channels_in * channels_out..],
                 output_row: channels_out,
                 finish: Finish::Added,
             }
             .compute();
         }
-        if grad_input.is_empty() {
+        if gradients.input.is_empty() {
             continue;
         }
         Product {
@@ -287,14 +272,14 @@ fn add_block(
                 &part.transposed[point * channels_in * channels_out..],
                 channels_in,
             ),
-            output: patch,
+            output: transformed,
             output_row: channels_in,
             finish: Finish::Stored,
         }
         .compute();
     }
-    if !grad_input.is_empty() {
-        scatter(geometry, grid, rows, &patch, grad_input);
+    if !gradients.input.is_empty() {
+        scatter(geometry, grid, rows, &transformed, gradients.input);
     }
 }
 
@@ -314,15 +299,14 @@ fn scatter(
     let mut patch = Buffer::recycled(grid.window(geometry, 0).floats(channels));
     for (index, row) in rows.enumerate() {
         let window = grid.window(geometry, row);
-        Scatter {
+        run(Scatter {
             points,
             place,
             first: index * grid.tiles,
             tiles: grid.tiles,
             window: &mut patch,
             columns: window.columns,
-        }
-        .run();
+        });
         let image = row / grid.per_image * geometry.image_in();
         let image = &mut grad_input[image..image + geometry.image_in()];
         if row.is_multiple_of(grid.per_image) {

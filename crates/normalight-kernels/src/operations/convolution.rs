@@ -1,33 +1,8 @@
 use super::{channels_first, channels_last};
+use crate::settings::Convolution;
 use burn::tensor::module::{conv2d, interpolate};
 use burn::tensor::ops::{ConvOptions, InterpolateMode, InterpolateOptions};
 use burn::tensor::{Tensor, activation};
-
-/// How a [`convolution`] is done, beside its weights.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Convolution {
-    /// Distance of the output pixels in the input, at least 1.
-    pub stride: usize,
-    /// Pixels that the kernel is moved right and down from its centred place: 0, or 1 to see the pixels that a 1x1
-    /// kernel of stride 2 would leave out.
-    pub shift: usize,
-    /// The input is first enlarged by this factor with its nearest pixels: 1 or 2.
-    pub upsampling: usize,
-    /// Slope of the leaky ReLU below zero, above 0 and at most 1; 1 means no activation.
-    pub slope: f32,
-}
-
-impl Default for Convolution {
-    /// Stride 1, nothing else.
-    fn default() -> Self {
-        Self {
-            stride: 1,
-            shift: 0,
-            upsampling: 1,
-            slope: 1.0,
-        }
-    }
-}
 
 /// A square convolution of odd size with "same" padding, a bias and a leaky ReLU.
 ///
@@ -38,7 +13,7 @@ impl Default for Convolution {
 /// - output: `[batch, ceil(upsampling * height / stride), ceil(upsampling * width / stride), channels_out]`
 ///
 /// # Panics
-/// If the shapes do not fit, as Burn's own operations.
+/// If the shapes do not fit, like Burn's own operations.
 pub fn convolution(
     input: Tensor<4>,
     weight: Tensor<4>,

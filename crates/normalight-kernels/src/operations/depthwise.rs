@@ -11,7 +11,7 @@ use burn::tensor::{Tensor, activation};
 /// - output: `[batch, ceil(height / stride), ceil(width / stride), channels]`
 ///
 /// # Panics
-/// If the shapes do not fit, as Burn's own operations.
+/// If the shapes do not fit, like Burn's own operations.
 pub fn depthwise_relu(input: Tensor<4>, weight: Tensor<4>, stride: usize) -> Tensor<4> {
     let ([_, _, _, channels], [groups, one, size, size_2]) = (input.dims(), weight.dims());
     assert!(

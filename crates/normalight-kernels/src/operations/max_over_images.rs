@@ -12,7 +12,7 @@ pub fn max_over_images(input: Tensor<4>, samples: usize) -> Tensor<4> {
     let [rows, height, width, channels] = input.dims();
     assert!(
         samples > 0 && rows > 0 && rows.is_multiple_of(samples),
-        "{rows} images are no whole number for each of {samples} samples"
+        "{rows} images cannot be divided evenly among {samples} samples"
     );
     #[cfg(feature = "flex")]
     if super::on_flex(&input) {

@@ -59,10 +59,10 @@ pub fn batch_norm(
     #[cfg(feature = "flex")]
     if super::on_flex(&input) {
         use burn::backend::Dispatch;
+        let both = Tensor::stack::<2>(vec![moments.mean.clone(), moments.variance.clone()], 0);
         return Tensor::from_dispatch(<Dispatch as crate::backend::KernelBackend>::batch_norm(
             input.into_dispatch(),
-            moments.mean.clone().into_dispatch(),
-            moments.variance.clone().into_dispatch(),
+            both.into_dispatch(),
             gamma.into_dispatch(),
             beta.into_dispatch(),
             epsilon,

@@ -2,7 +2,7 @@ use burn::tensor::{Tensor, TensorData};
 
 /// Coefficients of the quintic that each step applies to the singular values (Jordan et al. 2024, "Muon: an optimizer for
 /// hidden layers in neural networks"): chosen to raise small ones fast, so that all end near 1 rather than at it.
-pub(crate) const NEWTON_SCHULZ: [f32; 3] = [3.4445, -4.7750, 2.0315];
+const NEWTON_SCHULZ: [f32; 3] = [3.4445, -4.7750, 2.0315];
 
 /// A matrix with the singular vectors of `input` and all singular values near 1 (0.7 to 1.2 after five steps for those that
 /// were more than a few thousandths of the matrix's norm): `steps` Newton-Schulz steps `X <- a X + (b A + c A A) X` with
@@ -25,7 +25,8 @@ pub fn orthogonalised(input: Tensor<2>, steps: usize) -> Tensor<2> {
         let square: f64 = values.iter().map(|value| f64::from(*value).powi(2)).sum();
         let norm = square.sqrt().max(SMALLEST) as f32;
         values.iter_mut().for_each(|value| *value /= norm);
-        crate::cpu::orthogonalise::orthogonalise(&mut values, [rows, columns], steps);
+        let size = [rows, columns];
+        crate::cpu::orthogonalise::orthogonalise(&mut values, size, NEWTON_SCHULZ, steps);
         return Tensor::from_data(TensorData::new(values, [rows, columns]), &device);
     }
     let [a, b, c] = NEWTON_SCHULZ;

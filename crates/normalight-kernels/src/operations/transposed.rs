@@ -14,7 +14,7 @@ use burn::tensor::{Tensor, activation};
 /// - output: `[batch, 2 height, 2 width, channels_out]`
 ///
 /// # Panics
-/// If the shapes do not fit, as Burn's own operations.
+/// If the shapes do not fit, like Burn's own operations.
 pub fn transposed_convolution(
     input: Tensor<4>,
     weight: Tensor<4>,

@@ -1,5 +1,6 @@
 //! Operations run on our own path and on the independent backend, forward and backward.
 #![allow(dead_code, reason = "every test file uses a part")]
+#![allow(clippy::unwrap_used, reason = "what fails here fails a test")]
 
 use burn::tensor::{Device, Tensor, TensorData};
 

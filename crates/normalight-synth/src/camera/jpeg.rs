@@ -1,5 +1,5 @@
-use super::Visible;
 use super::srgb::SrgbCodes;
+use super::visible::Visible;
 
 /// Side of a block.
 const BLOCK: usize = 8;
@@ -164,7 +164,7 @@ fn halved(plane: &[f32], side: usize) -> Vec<f32> {
         .collect()
 }
 
-/// To the nearest whole number, away from zero in the middle.
+/// To the nearest whole number, halves away from zero.
 fn round(value: f32) -> f32 {
     (value + if value < 0.0 { -0.5 } else { 0.5 }) as i32 as f32
 }

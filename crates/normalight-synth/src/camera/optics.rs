@@ -1,4 +1,4 @@
-use super::Visible;
+use super::visible::Visible;
 
 /// Furthest neighbour that a kernel reaches, in pixels.
 const REACH: usize = 5;

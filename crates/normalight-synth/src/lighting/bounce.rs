@@ -5,7 +5,7 @@ use crate::shapes::View;
 use glam::Vec3;
 use std::f32::consts::PI;
 
-/// Patches a side that pass light on.
+/// Patches along each side that pass light on.
 const PATCHES: usize = 12;
 /// Largest share that comes again: where patches touch, form factors are rough.
 const MOST_AGAIN: f32 = 0.9;
@@ -17,7 +17,7 @@ const MIN_EXCHANGE: f32 = 1e-4;
 ///
 /// The object's visible side is divided into patches; each receives the lamps' light (shadows included)
 /// and passes what it scatters on to every point that faces it. What stands between a patch and a point
-/// is not asked. Of what arrives at a point the share `g` that its patches would send back on comes again,
+/// is ignored. Of what arrives at a point the share `g` that its patches would send back on comes again,
 /// and of that again, so the first bounce counts `1 / (1 - g)` times: the sum of the Neumann series where
 /// `g`, albedo times form factors, is the same all over, exact inside an evenly lit sphere.
 pub(crate) struct Bounces {

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Points on the ground of grooves in all directions, each asked whether a wall hides the lamp.
+    /// Points on the ground of grooves in all directions, each tested for a wall that hides the lamp.
     #[test]
     fn walls_shade_what_rays_find() {
         for (ratio, polar) in [(0.3f64, 40.0f64), (0.5, 60.0), (0.9, 20.0), (0.1, 80.0)] {

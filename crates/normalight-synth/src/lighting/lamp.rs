@@ -14,7 +14,7 @@ const MIN_Z: f32 = 0.08;
 pub(crate) struct Lamp {
     /// Unit vector from the object's middle.
     pub(crate) direction: Vec3,
-    /// From the object's middle; `None` is infinitely far.
+    /// Distance from the object's middle; `None` is infinitely far.
     pub(crate) distance: Option<f32>,
 }
 

@@ -48,7 +48,7 @@ fn ring(random: &mut Random, count: usize, polar: f32) -> Vec<Vec3> {
         .collect()
 }
 
-/// Rings on two to four heights that share the lamps by their length, as fixed rigs have them.
+/// Rings at two to four heights that share the lamps by their length, as fixed rigs have them.
 fn dome(recipe: &LightRecipe, random: &mut Random, count: usize) -> Vec<Vec3> {
     let edge = random.range(recipe.cap_degrees[0], recipe.cap_degrees[1]);
     let rings = random.count(2, 4);

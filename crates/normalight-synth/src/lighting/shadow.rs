@@ -3,7 +3,7 @@ use crate::lanes::{LANES, Lanes, lanes, vectorised};
 use crate::shapes::{View, Window};
 use glam::{Vec2, Vec3};
 
-/// Pixels a side that are walked over together; as wide as the lanes.
+/// Side in pixels of a tile that is walked over together; as wide as the lanes.
 const TILE: usize = LANES;
 /// Pixels around the picture where nothing is.
 const BORDER: usize = TILE;
@@ -116,7 +116,7 @@ impl Shadows {
 
     /// Share of the lamp that every pixel sees: 0 in shadow, 1 lit, between at the border.
     ///
-    /// `[height, width]`; 1 where nothing of the object is
+    /// `[height, width]`; 1 outside the object
     pub(crate) fn lit(&self, lamp: &Lamp) -> Vec<f32> {
         let mut lit = vec![1.0; self.window.width * self.window.height];
         vectorised(
@@ -170,12 +170,16 @@ impl Shadows {
             let height = rise * walked * pitch;
             let size = if step < FINE_STEPS { 1.0 } else { COARSE_STEP };
             // Below the far side by less, the ray comes out above it, or half in it, with the next step.
-            let under = (0.5 + rise.max(0.0) * size) * pitch;
+            let ahead = Step {
+                height,
+                under: (0.5 + rise.max(0.0) * size) * pitch,
+                inverse_pitch,
+            };
             for (row, seen) in seen.iter_mut().enumerate() {
                 let start = lanes(&self.start, first as usize + row * self.stride);
                 let near = lanes(&self.near, there + row * self.stride);
                 let far = lanes(&self.far, there + row * self.stride);
-                pass(seen, start, near, far, [height, under], inverse_pitch);
+                pass(seen, start, near, far, &ahead);
             }
             step += size;
         }
@@ -190,22 +194,29 @@ impl Shadows {
     }
 }
 
+/// A step of the walks, the same for all of a tile.
+struct Step {
+    /// How far the rays have risen.
+    height: f32,
+    /// How far below the far side of an obstacle a ray passes under it.
+    under: f32,
+    /// One over the side of a pixel.
+    inverse_pitch: f32,
+}
+
 /// One step of sixteen walks.
 #[inline(always)]
-fn pass(
-    seen: &mut Lanes,
-    start: &Lanes,
-    near: &Lanes,
-    far: &Lanes,
-    [height, under]: [f32; 2],
-    inverse_pitch: f32,
-) {
+fn pass(seen: &mut Lanes, start: &Lanes, near: &Lanes, far: &Lanes, step: &Step) {
     for lane in 0..LANES {
-        let z = start[lane] + height;
+        let z = start[lane] + step.height;
         // A pixel of half shadow.
-        let clear = 0.5 + (z - near[lane]) * inverse_pitch;
+        let clear = 0.5 + (z - near[lane]) * step.inverse_pitch;
         // Behind the far side the ray passes under the obstacle.
-        let clear = if z + under < far[lane] { 1.0 } else { clear };
+        let clear = if z + step.under < far[lane] {
+            1.0
+        } else {
+            clear
+        };
         let clear = if clear > 0.0 { clear } else { 0.0 };
         seen[lane] = if clear < seen[lane] {
             clear

@@ -11,7 +11,6 @@ use std::f32::consts::PI;
 pub(crate) fn shade(
     points: &Points,
     surfaces: &Surfaces,
-    measured: &[Measured],
     lamp: &Lamp,
     lit: &[f32],
     planes: &mut [Vec<f32>; 3],
@@ -29,8 +28,8 @@ pub(crate) fn shade(
                 if surfaces.shiny {
                     add_highlights(&mut light, points, surfaces, &setting, start);
                 }
-                for (layer, tint) in measured.iter().zip(&surfaces.measured) {
-                    add_measured(&mut light, layer, tint, points, &setting, start);
+                for layer in &surfaces.measured {
+                    add_measured(&mut light, layer, points, &setting, start);
                 }
                 for (plane, light) in planes.iter_mut().zip(&light) {
                     let plane = lanes_mut(plane, start);
@@ -191,8 +190,7 @@ fn add_highlights(
 #[inline(always)]
 fn add_measured(
     light: &mut [Lanes; 3],
-    layer: &Measured,
-    tint: &[Vec<f32>; 3],
+    (layer, tint): &(Measured, [Vec<f32>; 3]),
     points: &Points,
     setting: &Setting,
     start: usize,

@@ -1,6 +1,6 @@
 use super::measured::Measured;
 use super::pattern::{Pattern, smooth_step};
-use super::surfaces::{MAX_SUBSTANCES, Surface};
+use super::surface::{MAX_LAYERS, Surface};
 use crate::noise::Lattice;
 use crate::random::Random;
 use crate::recipe::MaterialRecipe;
@@ -46,7 +46,7 @@ impl Material {
         let first = MaterialLayer::draw(recipe, library, &mut measured, random);
         let mut others = Vec::new();
         if random.chance(recipe.mixed_share) {
-            for _ in 0..random.count(1, MAX_SUBSTANCES - 1) {
+            for _ in 0..random.count(1, MAX_LAYERS - 1) {
                 let border = Border {
                     to_noise: random.rotation() * random.log_range(0.8, 8.0),
                     offset: random.vector(16.0),

@@ -149,7 +149,7 @@ impl Geometry {
             // The difference vector is the lamp's direction in a frame whose pole is the half vector.
             let x = (along * height - self.to_lamp[lane]) / out;
             let y = self.side[lane] / out;
-            // Lamp and camera may change places: then x and y change sign. Fitted were those with y >= 0.
+            // Lamp and camera may change places: then x and y change sign. The networks were fitted with y >= 0.
             let sign = if y < 0.0 { -1.0 } else { 1.0 };
             input[0][lane] = out;
             input[2][lane] = height;

@@ -1,4 +1,4 @@
-use super::check::number;
+use super::ranges::number;
 use crate::SynthError;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

@@ -30,7 +30,7 @@ impl Preset {
 }
 
 /// After the description of the Blobby and Sculpture sets (Chen, Han & Wong 2018): orthographic views,
-/// one measured material an object, lights within about 90 degrees around the viewing axis; shadows
+/// one measured material per object, lights within about 90 degrees around the viewing axis; shadows
 /// and inter-reflections are as their renderer gave them, textures and camera effects absent.
 /// `materials.measured_share` is 0 because the measured materials come in a file of the user's.
 fn classic() -> SceneRecipe {

@@ -1,5 +1,5 @@
 use super::crops::Crops;
-use super::{Points, Scene};
+use super::{Points, Scene, SceneLight};
 use crate::SynthError;
 use crate::lighting::Lamp;
 use crate::random::{Random, Stream};
@@ -69,7 +69,12 @@ impl Scene {
             .map(|&image| Lamp::distant(lights[image].direction));
         let lamps = lamps.collect();
         let crops = crop.map(|size| Crops::new(&view, size));
-        let mut scene = Self::new(seed, recipe, view, crops, &points.pixels, lamps, radiance);
+        let light = SceneLight {
+            lamps,
+            radiance,
+            ambient: None,
+        };
+        let mut scene = Self::new(seed, recipe, view, crops, light);
         scene.depth_known = false;
         Ok(scene)
     }

@@ -1,6 +1,6 @@
 //! Rendered scenes as files, so that a run need not render them again.
 use super::crops::Crops;
-use super::{Points, Scene};
+use super::{Scene, SceneLight};
 use crate::SynthError;
 use crate::lighting::Lamp;
 use crate::recipe::SceneRecipe;
@@ -33,7 +33,7 @@ impl Scene {
             window.pitch,
             window.inverse_distance,
         ];
-        let lamps = self.lamps.iter().flat_map(|lamp| {
+        let lamps = self.light.lamps.iter().flat_map(|lamp| {
             let [x, y, z] = lamp.direction.to_array();
             [x, y, z, lamp.distance.unwrap_or(f32::INFINITY)]
         });
@@ -53,14 +53,14 @@ impl Scene {
                 self.view.depth.clone(),
             ),
             ("normals", vec![points, 3], normals),
-            ("lamps", vec![self.lamps.len(), 4], lamps.collect()),
+            ("lamps", vec![self.light.lamps.len(), 4], lamps.collect()),
             (
                 "radiance",
-                vec![self.lamps.len(), 3, points],
-                self.radiance.iter().flat_map(planes).collect(),
+                vec![self.light.lamps.len(), 3, points],
+                self.light.radiance.iter().flat_map(planes).collect(),
             ),
         ];
-        if let Some(ambient) = &self.ambient {
+        if let Some(ambient) = &self.light.ambient {
             arrays.push(("ambient", vec![3, points], planes(ambient)));
         }
         encode(arrays).map_err(|error| SynthError::Stored {
@@ -75,7 +75,7 @@ impl Scene {
     /// [`Scene::reseeded`] must say which samples the scene is for.
     ///
     /// # Errors
-    /// [`SynthError::Stored`].
+    /// [`SynthError::Stored`]: not a stored scene, or one too small for the crops.
     pub fn from_bytes(
         recipe: &SceneRecipe,
         name: &str,
@@ -134,13 +134,16 @@ impl Scene {
         // A scene of nothing has no values to divide among the lamps.
         let radiance = (0..count).map(|lamp| planes(&radiance[3 * lamp * points..]));
         let crops = crop.map(|size| Crops::new(&view, size));
-        let pixels = Points::new(&view).pixels;
-        let lamps = lamps.collect();
-        let mut scene = Self::new(0, recipe, view, crops, &pixels, lamps, radiance.collect());
-        if file.tensors.tensor("ambient").is_ok() {
-            scene.ambient = Some(planes(&file.shaped("ambient", &[3, points])?));
-        }
-        Ok(scene)
+        let ambient = match file.tensors.tensor("ambient") {
+            Ok(_) => Some(planes(&file.shaped("ambient", &[3, points])?)),
+            Err(_) => None,
+        };
+        let light = SceneLight {
+            lamps: lamps.collect(),
+            radiance: radiance.collect(),
+            ambient,
+        };
+        Ok(Self::new(0, recipe, view, crops, light))
     }
 }
 
@@ -232,7 +235,7 @@ mod tests {
             ] {
                 assert_eq!((&one.images, &one.mask), (&other.images, &other.mask));
                 assert_eq!((&one.normals, &one.lights), (&other.normals, &other.lights));
-                // Outside the object it is no number, which equals nothing.
+                // Outside the object it is NaN, which does not equal itself.
                 let bits = |depth: &[f32]| depth.iter().map(|z| z.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&one.depth), bits(&other.depth));
             }

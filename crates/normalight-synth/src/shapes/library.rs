@@ -22,7 +22,7 @@ impl Library {
     /// meet in an edge.
     ///
     /// # Errors
-    /// A folder without meshes, a file that cannot be read or is no mesh.
+    /// A folder without meshes, a file that cannot be read or is not a mesh.
     pub(crate) fn read(folders: &[MeshFolder], crease: f32) -> Result<Self, SynthError> {
         let used = folders.iter().filter(|folder| folder.weight > 0.0);
         let read = |folder: &MeshFolder| {
@@ -44,7 +44,7 @@ impl Library {
         self.0.iter().map(|folder| folder.meshes.len()).sum()
     }
 
-    /// A folder by its weight, then any of its meshes; `None` of nothing.
+    /// A folder by its weight, then any of its meshes; `None` when there are none.
     pub(crate) fn draw(&self, random: &mut Random) -> Option<&Mesh> {
         let weights: Vec<f32> = self.0.iter().map(|folder| folder.weight).collect();
         if weights.is_empty() {
@@ -96,7 +96,7 @@ fn read_all(files: &[PathBuf], crease: f32) -> Result<Vec<Arc<Mesh>>, SynthError
 /// Fails for a file that both lists of folders hold, by whatever path.
 ///
 /// # Errors
-/// Such a file; a folder that cannot be read.
+/// A file that is in both lists; a folder that cannot be read.
 pub(crate) fn check_apart(
     training: &[MeshFolder],
     validation: &[MeshFolder],

@@ -1,5 +1,6 @@
 use super::layers::{Layer, far_side};
-use super::view::{Detail, View, Window, faced, is_faced};
+use super::view::{Detail, View, faced, is_faced};
+use super::window::Window;
 use glam::{Mat3, Vec2, Vec3};
 use normalight_core::{CornerNormals, TriangleMesh};
 

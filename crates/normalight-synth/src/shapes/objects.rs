@@ -6,7 +6,8 @@ use super::plate::Plate;
 use super::relief::Relief;
 use super::shape::{Body, Shape};
 use super::vessels::vessel;
-use super::view::{Detail, View, Window};
+use super::view::{Detail, View};
+use super::window::Window;
 use crate::random::{Random, about_x, about_y, about_z};
 use crate::recipe::ShapeRecipe;
 use glam::{Mat3, Vec2, Vec3};
@@ -170,7 +171,7 @@ fn relief(recipe: &ShapeRecipe, random: &mut Random, turn: Mat3) -> Relief {
     Relief::draw(random, strong, turn)
 }
 
-/// As one looks into a bowl. `yaw` as of [`upright`].
+/// As one looks into a bowl. `yaw` as for [`upright`].
 fn from_above(random: &mut Random, yaw: f32) -> Mat3 {
     let (tilt, lean) = (random.range(25.0, 70.0), random.signed(5.0));
     about_z(lean.to_radians()) * about_x(tilt.to_radians()) * about_y(yaw)

@@ -96,7 +96,8 @@ mod tests {
     use crate::random::Stream;
     use crate::shapes::part::Part;
     use crate::shapes::shape::{Body, Shape};
-    use crate::shapes::view::{Detail, Window};
+    use crate::shapes::view::Detail;
+    use crate::shapes::window::Window;
 
     /// A ball with relief laid over its picture against the same relief carved into the solid.
     #[test]

@@ -119,7 +119,7 @@ impl Plate {
         }
     }
 
-    /// Frequency in cells a unit and slope are ranges.
+    /// Frequency, in cells per unit, and slope are ranges.
     fn add(&mut self, random: &mut Random, kind: LayerKind, frequency: [f32; 2], slope: [f32; 2]) {
         let frequency = random.log_range(frequency[0], frequency[1]);
         let slope = random.range(slope[0], slope[1]);
@@ -203,7 +203,7 @@ impl Plate {
 }
 
 impl LayerKind {
-    /// Steepest change of [`Self::at`] a cell, roughly.
+    /// Steepest change of [`Self::at`] per cell, roughly.
     fn steepest(self) -> f32 {
         match self {
             Self::Bumps => 1.7,

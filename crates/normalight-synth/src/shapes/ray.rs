@@ -1,22 +1,68 @@
 use super::shape::{Active, Shape};
-use super::view::Ray;
 use crate::noise::Lattice;
+use glam::Vec3;
 
 /// Most steps of a ray; thin things with steep carvings are approached in small ones.
 const MAX_STEPS: usize = 160;
 
+/// What one pixel looks along: from the camera through a point of the plane z = 0.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ray {
+    x: f32,
+    y: f32,
+    inverse_distance: f32,
+}
+
+impl Ray {
+    /// From a camera on the z axis, `1 / inverse_distance` above z = 0, through the point (x, y) there.
+    pub(crate) fn new(x: f32, y: f32, inverse_distance: f32) -> Self {
+        Self {
+            x,
+            y,
+            inverse_distance,
+        }
+    }
+
+    /// Its point at height z.
+    #[inline]
+    pub(crate) fn at(&self, z: f32) -> Vec3 {
+        let share = 1.0 - z * self.inverse_distance;
+        Vec3::new(self.x * share, self.y * share, z)
+    }
+
+    /// Unit vector towards the camera.
+    pub(crate) fn to_camera(self) -> Vec3 {
+        let (x, y) = (self.x, self.y);
+        Vec3::new(-x * self.inverse_distance, -y * self.inverse_distance, 1.0).normalize()
+    }
+
+    /// Change of z when walking one unit down the ray.
+    pub(crate) fn z_per_length(&self) -> f32 {
+        self.to_camera().z
+    }
+}
+
+/// Signed distance to the parts of a shape that the rays of a tile may meet.
+pub(crate) struct DistanceField<'a> {
+    pub(crate) shape: &'a Shape,
+    pub(crate) lattice: &'a Lattice,
+    pub(crate) active: Active,
+}
+
+impl DistanceField<'_> {
+    #[inline]
+    fn at(&self, point: Vec3) -> f32 {
+        self.shape.distance(self.lattice, point, self.active)
+    }
+}
+
 /// Height down to which all rays of a tile pass through empty space; `None` when they miss.
 /// `ray`: the tile's middle, `radius`: how far its corners' rays ever are from it.
-pub(crate) fn tile_start(
-    shape: &Shape,
-    lattice: &Lattice,
-    active: Active,
-    ray: Ray,
-    radius: f32,
-) -> Option<f32> {
+pub(crate) fn tile_start(field: &DistanceField, ray: Ray, radius: f32) -> Option<f32> {
+    let shape = field.shape;
     let mut z = shape.reach();
     for _ in 0..MAX_STEPS {
-        let free = shape.distance(lattice, ray.at(z), active) * shape.step() - radius;
+        let free = field.at(ray.at(z)) * shape.step() - radius;
         if free < 0.1 * radius {
             break;
         }
@@ -30,15 +76,9 @@ pub(crate) fn tile_start(
 
 /// z of the first point of the surface on a ray that comes down from `start`, within a fraction of
 /// `pitch`.
-pub(crate) fn follow(
-    shape: &Shape,
-    lattice: &Lattice,
-    active: Active,
-    ray: Ray,
-    start: f32,
-    pitch: f32,
-) -> Option<f32> {
-    let distance_at = |z: f32| shape.distance(lattice, ray.at(z), active);
+pub(crate) fn follow(field: &DistanceField, ray: Ray, start: f32, pitch: f32) -> Option<f32> {
+    let shape = field.shape;
+    let distance_at = |z: f32| field.at(ray.at(z));
     let safe_step = shape.step() * ray.z_per_length();
     let tolerance = 0.03 * pitch;
     let mut z = start;
@@ -100,8 +140,23 @@ fn between(
     z
 }
 
-#[cfg(test)]
-use glam::Vec3;
+/// z of the object's far side on a ray, roughly: shadows need no more.
+pub(crate) fn back_of(shape: &Shape, lattice: &Lattice, ray: Ray, front: f32, pitch: f32) -> f32 {
+    let mut z = -shape.reach();
+    for _ in 0..12 {
+        let point = ray.at(z);
+        let active = shape.active(point.x, point.y, 0.0);
+        if active.is_empty() {
+            break;
+        }
+        let distance = shape.distance(lattice, point, active);
+        if distance < pitch || z >= front {
+            break;
+        }
+        z += distance * 0.9;
+    }
+    z
+}
 
 #[cfg(test)]
 impl Shape {

@@ -24,10 +24,22 @@ struct Layer {
     to_noise: Mat3,
     offset: Vec3,
     height: f32,
-    /// Cells a unit.
+    /// Cells per unit.
     frequency: f32,
     /// Sharp valleys instead of round bumps.
     ridged: bool,
+}
+
+/// What is asked of a layer, before it is laid out at random.
+struct LayerPlan {
+    /// Cells per unit.
+    frequency: f32,
+    /// Change of the displacement along the surface where it is steep.
+    slope: f32,
+    /// Sharp valleys instead of round bumps.
+    ridged: bool,
+    /// Turns and stretches space before the noise.
+    turn: Mat3,
 }
 
 impl Relief {
@@ -49,7 +61,15 @@ impl Relief {
             };
             let ridged = random.chance(0.3);
             let turn = rotation * Mat3::from_diagonal(stretch) * rotation.transpose();
-            relief.add(random, frequency, slope, ridged, turn);
+            relief.add(
+                random,
+                &LayerPlan {
+                    frequency,
+                    slope,
+                    ridged,
+                    turn,
+                },
+            );
         }
         relief
     }
@@ -59,7 +79,15 @@ impl Relief {
         let mut relief = Self::default();
         for _ in 0..random.count(1, 2) {
             let (frequency, slope) = (random.log_range(0.9, 2.5), random.range(0.3, 0.8));
-            relief.add(random, frequency, slope, false, Mat3::IDENTITY);
+            relief.add(
+                random,
+                &LayerPlan {
+                    frequency,
+                    slope,
+                    ridged: false,
+                    turn: Mat3::IDENTITY,
+                },
+            );
         }
         relief
     }
@@ -76,7 +104,15 @@ impl Relief {
         for _ in 0..random.count(1, 2) {
             let frequency = 1.0 / (unit * random.log_range(3.0, 12.0));
             let (slope, ridged) = (random.range(0.1, 0.6), random.chance(0.6));
-            relief.add(random, frequency, slope, ridged, turn);
+            relief.add(
+                random,
+                &LayerPlan {
+                    frequency,
+                    slope,
+                    ridged,
+                    turn,
+                },
+            );
         }
         relief
     }
@@ -103,19 +139,19 @@ impl Relief {
         self
     }
 
-    fn add(&mut self, random: &mut Random, frequency: f32, slope: f32, ridged: bool, turn: Mat3) {
+    fn add(&mut self, random: &mut Random, plan: &LayerPlan) {
         // Quintic value noise rises by about 1.5 times its height a cell where it is steep.
-        let height = slope / (1.5 * frequency);
+        let height = plan.slope / (1.5 * plan.frequency);
         self.layers.push(Layer {
             // Turned at random so that the cells' walls do not line up with the image.
-            to_noise: random.rotation() * turn * frequency,
+            to_noise: random.rotation() * plan.turn * plan.frequency,
             offset: random.vector(16.0),
             height,
-            frequency,
-            ridged,
+            frequency: plan.frequency,
+            ridged: plan.ridged,
         });
         self.reach += height;
-        self.slope += slope;
+        self.slope += plan.slope;
     }
 
     pub(crate) fn is_flat(&self) -> bool {

@@ -1,98 +1,14 @@
-use super::ray::{follow, tile_start};
+use super::ray::{DistanceField, back_of, follow, tile_start};
 use super::shape::Shape;
+use super::window::Window;
 use crate::noise::Lattice;
 use glam::Vec3;
 
-/// Rays of one tile share their start; pixels a side.
+/// Side in pixels of a tile, whose rays share their start.
 const TILE: usize = 8;
 /// Flatter views of the surface than this cosine are left out of the mask: they are seen edge-on,
 /// where one pixel holds both object and background.
 const MIN_NORMAL_Z: f32 = 0.02;
-
-/// A rectangle of the plane z = 0 seen by a camera on the z axis; rows go down.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Window {
-    pub(crate) left: f32,
-    pub(crate) top: f32,
-    /// Side of a pixel in units of the object, at z = 0.
-    pub(crate) pitch: f32,
-    pub(crate) width: usize,
-    pub(crate) height: usize,
-    /// One over the camera's height over z = 0; zero for an orthographic camera.
-    pub(crate) inverse_distance: f32,
-}
-
-/// What one pixel looks along: from the camera through a point of the plane z = 0.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Ray {
-    x: f32,
-    y: f32,
-    inverse_distance: f32,
-}
-
-impl Ray {
-    /// Its point at height z.
-    #[inline]
-    pub(crate) fn at(&self, z: f32) -> Vec3 {
-        let share = 1.0 - z * self.inverse_distance;
-        Vec3::new(self.x * share, self.y * share, z)
-    }
-
-    /// Unit vector towards the camera.
-    pub(crate) fn to_camera(self) -> Vec3 {
-        let (x, y) = (self.x, self.y);
-        Vec3::new(-x * self.inverse_distance, -y * self.inverse_distance, 1.0).normalize()
-    }
-
-    /// Change of z when walking one unit down the ray.
-    pub(crate) fn z_per_length(&self) -> f32 {
-        self.to_camera().z
-    }
-}
-
-impl Window {
-    /// A square of the given side around (x, y).
-    pub(crate) fn square(x: f32, y: f32, side: f32, pixels: usize, inverse_distance: f32) -> Self {
-        Self {
-            left: x - side / 2.0,
-            top: y + side / 2.0,
-            pitch: side / pixels as f32,
-            width: pixels,
-            height: pixels,
-            inverse_distance,
-        }
-    }
-
-    /// x of the centre of a column.
-    pub(crate) fn x(&self, column: usize) -> f32 {
-        self.left + (column as f32 + 0.5) * self.pitch
-    }
-
-    /// y of the centre of a row.
-    pub(crate) fn y(&self, row: usize) -> f32 {
-        self.top - (row as f32 + 0.5) * self.pitch
-    }
-
-    /// What a pixel looks along.
-    pub(crate) fn ray(&self, pixel: usize) -> Ray {
-        self.ray_through(self.x(pixel % self.width), self.y(pixel / self.width))
-    }
-
-    pub(crate) fn ray_through(&self, x: f32, y: f32) -> Ray {
-        let inverse_distance = self.inverse_distance;
-        Ray {
-            x,
-            y,
-            inverse_distance,
-        }
-    }
-
-    /// Depth in the space where the camera's rays are parallel: straight lines stay straight.
-    #[inline]
-    pub(crate) fn parallel_depth(&self, z: f32) -> f32 {
-        z / (1.0 - z * self.inverse_distance)
-    }
-}
 
 /// What the camera sees of a shape.
 #[derive(Debug, Clone)]
@@ -121,11 +37,11 @@ pub(crate) enum Detail {
     All,
 }
 
-/// Pixels that share one ray to the far side, a side: shadows need it only roughly.
+/// Side in pixels of a block that shares one ray to the far side: shadows need it only roughly.
 const BACK_BLOCK: usize = 2;
 
 impl View {
-    /// Follows one ray a pixel down to the surface.
+    /// Follows one ray per pixel down to the surface.
     pub(crate) fn trace(shape: &Shape, window: Window, detail: Detail) -> Self {
         let lattice = Lattice::shared();
         let mut view = Self {
@@ -167,14 +83,19 @@ impl View {
             return;
         }
         let middle = window.ray_through(centre_x, centre_y);
-        let Some(start) = tile_start(shape, lattice, active, middle, radius) else {
+        let field = DistanceField {
+            shape,
+            lattice,
+            active,
+        };
+        let Some(start) = tile_start(&field, middle, radius) else {
             return;
         };
         for row in rows {
             for column in columns.clone() {
                 let pixel = row * window.width + column;
                 let ray = window.ray(pixel);
-                if let Some(hit) = follow(shape, lattice, active, ray, start, window.pitch) {
+                if let Some(hit) = follow(&field, ray, start, window.pitch) {
                     self.depth[pixel] = hit;
                 }
             }
@@ -296,24 +217,6 @@ impl View {
             && (row == 0 || self.is_inside(pixel - width))
             && (row + 1 == height || self.is_inside(pixel + width))
     }
-}
-
-/// z of the object's far side on a ray, roughly: shadows need no more.
-fn back_of(shape: &Shape, lattice: &Lattice, ray: Ray, front: f32, pitch: f32) -> f32 {
-    let mut z = -shape.reach();
-    for _ in 0..12 {
-        let point = ray.at(z);
-        let active = shape.active(point.x, point.y, 0.0);
-        if active.is_empty() {
-            break;
-        }
-        let distance = shape.distance(lattice, point, active);
-        if distance < pitch || z >= front {
-            break;
-        }
-        z += distance * 0.9;
-    }
-    z
 }
 
 /// Whether the camera sees a surface of this unit normal other than edge-on.

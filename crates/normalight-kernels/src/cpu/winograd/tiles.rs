@@ -3,7 +3,7 @@ use crate::cpu::product::leaky;
 use crate::cpu::transforms::{
     KEPT, POINTS, SIDE, Vectors, input, input_transposed, output, output_transposed,
 };
-use crate::cpu::vectors::{Lanes, run};
+use crate::cpu::vectors::Lanes;
 use pulp::{Simd, WithSimd};
 
 /// Where the transformed values of some tiles are: 36 planes of `[tiles, channels]`.
@@ -54,10 +54,6 @@ pub(super) struct Gather<'a> {
 }
 
 impl Gather<'_> {
-    pub(super) fn run(self) {
-        run(self);
-    }
-
     fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         check_window(
@@ -121,10 +117,6 @@ pub(super) struct Scatter<'a> {
 }
 
 impl Scatter<'_> {
-    pub(super) fn run(self) {
-        run(self);
-    }
-
     fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         check_window(
@@ -193,10 +185,6 @@ pub(super) struct Write<'a> {
 }
 
 impl Write<'_> {
-    pub(super) fn run(self) {
-        run(self);
-    }
-
     fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         assert!(
@@ -265,10 +253,6 @@ pub(super) struct Spread<'a> {
 }
 
 impl Spread<'_> {
-    pub(super) fn run(self) {
-        run(self);
-    }
-
     fn check(&self) {
         self.place.check(self.first, self.tiles, self.points.len());
         let floats = self.rows * self.columns * self.place.channels;

@@ -1,7 +1,6 @@
 //! The transforms of the weights, a vector of them at a time.
-use crate::cpu::transforms::{POINTS, SIDE, Vectors, kernel, kernel_transposed};
-use crate::cpu::vectors::{Lanes, run};
-use crate::cpu::winograd::TAPS;
+use crate::cpu::transforms::{POINTS, SIDE, TAPS, Vectors, kernel, kernel_transposed};
+use crate::cpu::vectors::Lanes;
 use pulp::{Simd, WithSimd};
 
 /// Nine planes of weights to 36.
@@ -10,16 +9,7 @@ pub(super) struct WeightTransform<'a> {
     pub(super) points: &'a mut [f32],
 }
 
-impl WeightTransform<'_> {
-    pub(super) fn run(self) {
-        run(self);
-    }
-
-    fn check(&self) {
-        check_planes(self.weight.len(), self.points.len());
-    }
-}
-
+/// Panics unless these are lengths of the same kernels, given and transformed.
 fn check_planes(weight: usize, points: usize) {
     assert!(
         weight.is_multiple_of(TAPS) && weight / TAPS * POINTS == points,
@@ -33,14 +23,14 @@ impl WithSimd for WeightTransform<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.check();
+        check_planes(self.weight.len(), self.points.len());
         let a = Vectors(simd);
         let plane = self.weight.len() / TAPS;
         for first in (0..plane).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, plane - first);
             let mut half = [[simd.splat_f32s(0.0); 3]; SIDE];
             for x in 0..3 {
-                // SAFETY: `check` has seen the planes, and the lanes end with them.
+                // SAFETY: `check_planes` has seen the planes, and the lanes end with them.
                 let column = std::array::from_fn(|y| unsafe {
                     lanes.load(self.weight.as_ptr().add((y * 3 + x) * plane + first))
                 });
@@ -65,30 +55,20 @@ pub(super) struct WeightGradientTransform<'a> {
     pub(super) weight: &'a mut [f32],
 }
 
-impl WeightGradientTransform<'_> {
-    pub(super) fn run(self) {
-        run(self);
-    }
-
-    fn check(&self) {
-        check_planes(self.weight.len(), self.points.len());
-    }
-}
-
 #[expect(unsafe_code, reason = "vectors are read and written through pointers")]
 impl WithSimd for WeightGradientTransform<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.check();
+        check_planes(self.weight.len(), self.points.len());
         let a = Vectors(simd);
         let plane = self.weight.len() / TAPS;
         for first in (0..plane).step_by(S::F32_LANES) {
             let lanes = Lanes::new(simd, plane - first);
             let mut half = [[simd.splat_f32s(0.0); SIDE]; 3];
             for x in 0..SIDE {
-                // SAFETY: `check` has seen the planes, and the lanes end with them.
+                // SAFETY: `check_planes` has seen the planes, and the lanes end with them.
                 let column = std::array::from_fn(|y| unsafe {
                     lanes.load(self.points.as_ptr().add((y * SIDE + x) * plane + first))
                 });

@@ -1,5 +1,5 @@
 use super::*;
-use crate::materials::surfaces::Surface;
+use crate::materials::surface::Surface;
 use glam::Vec3;
 use std::f64::consts::PI;
 
@@ -15,14 +15,7 @@ fn shine(surface: Surface, normals: &[Vec3], to_camera: Vec3, lamp: Vec3) -> Vec
     let surfaces = Surfaces::from_iter(std::iter::repeat_n(surface, count), normals, &[]);
     let lit = vec![1.0; points.normal[0].len()];
     let mut planes = std::array::from_fn(|_| vec![0.0; lit.len()]);
-    shade(
-        &points,
-        &surfaces,
-        &[],
-        &Lamp::distant(lamp),
-        &lit,
-        &mut planes,
-    );
+    shade(&points, &surfaces, &Lamp::distant(lamp), &lit, &mut planes);
     (0..count)
         .map(|k| Vec3::new(planes[0][k], planes[1][k], planes[2][k]))
         .collect()
