@@ -15,7 +15,7 @@
 //! let sample = renderer.sample(7, 4, 32, Framing::WholeObject);
 //! assert_eq!(sample.images.len(), 4 * 3 * 32 * 32);
 //! assert_eq!(sample.lights.len(), 4);
-//! assert_eq!(sample, renderer.sample(7, 4, 32, Framing::WholeObject));
+//! assert_eq!(sample.images, renderer.sample(7, 4, 32, Framing::WholeObject).images);
 //! # Ok::<(), normalight_synth::SynthError>(())
 //! ```
 #![deny(missing_docs)]
