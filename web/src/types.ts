@@ -32,7 +32,7 @@ export interface CreateOptions {
   readonly onLoad?: (fraction: number) => void;
 }
 
-/** How samples relate to light: `auto` takes 8-bit JPEG and WebP as sRGB and all else as linear. */
+/** How samples relate to light: `auto` does as the files say, or else as their layout and their shading. */
 export type ColorMode = "auto" | "linear" | "srgb";
 
 /**
