@@ -62,7 +62,7 @@ pub(crate) fn read(
         _ => {
             // Two values are a mask whatever they are; labels of parts all are the object.
             let above = threshold(&grey, low, high);
-            if low > 0.02 && low < high || high < 0.98 && low < high {
+            if low < high && (low > 0.02 || high < 0.98) {
                 notices.push(Notice::MaskValues {
                     file: file(),
                     values: vec![low, high],

@@ -30,21 +30,15 @@ impl Profile {
         if channels != 3 || self.curves.len() != 3 {
             return mapped(samples, |value| at(&self.curves[0], value));
         }
-        let planes: Vec<Vec<f32>> = self
-            .curves
-            .iter()
-            .enumerate()
-            .map(|(channel, curve)| {
-                let plane = plane(samples, channel);
-                mapped(&plane, |value| at(curve, value))
-            })
-            .collect();
-        let mut pixels = Vec::with_capacity(3 * planes[0].len());
-        for place in 0..planes[0].len() {
-            let rgb = [0, 1, 2].map(|channel| planes[channel][place]);
+        let [red, green, blue] = [0, 1, 2].map(|channel| {
+            let plane = plane(samples, channel);
+            mapped(&plane, |value| at(&self.curves[channel], value))
+        });
+        let mut pixels = Vec::with_capacity(3 * red.len());
+        for ((&r, &g), &b) in red.iter().zip(&green).zip(&blue) {
             pixels.extend(match self.matrix {
-                None => rgb,
-                Some(rows) => rows.map(|row| row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2]),
+                None => [r, g, b],
+                Some(rows) => rows.map(|row| row[0] * r + row[1] * g + row[2] * b),
             });
         }
         pixels
