@@ -8,6 +8,7 @@ use crate::choices::{
     QualityChoice,
 };
 use clap::{Args, Parser, Subcommand};
+use normalight_io::LightAxes;
 use std::path::PathBuf;
 
 /// Finds the lights and the surface normals of an object from photographs.
@@ -55,8 +56,11 @@ pub(crate) struct EstimateArgs {
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
     /// Folder for the results; made when missing.
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "dry_run")]
+    pub(crate) out: Option<PathBuf>,
+    /// Read the photographs, say what is taken for what and why, and stop.
+    #[arg(long, conflicts_with = "quiet")]
+    pub(crate) dry_run: bool,
     /// Image of the object's pixels (bright inside, dark outside), or `none` for the whole frame.
     ///
     /// Default: the image named mask beside the photographs, else the transparency of the first
@@ -69,6 +73,11 @@ pub(crate) struct EstimateArgs {
     /// Without it the lights are estimated; light files lying beside the photographs are not used.
     #[arg(long, value_name = "FILE")]
     pub(crate) lights: Option<PathBuf>,
+    /// Which way the axes of the light file point, as in x-right,y-down,z-in.
+    ///
+    /// Each of x, y and z: right, left, up, down, out (to the camera) or in. Default: x-right,y-up,z-out.
+    #[arg(long, value_name = "AXES", requires = "lights", default_value_t)]
+    pub(crate) light_axes: LightAxes,
     /// Use only this many photographs, evenly spaced.
     #[arg(long, value_name = "N")]
     pub(crate) images: Option<usize>,
@@ -80,7 +89,10 @@ pub(crate) struct EstimateArgs {
     pub(crate) color: ColorChoice,
     #[command(flatten)]
     pub(crate) estimation: EstimationArgs,
-    /// Show no progress and no summary.
+    /// Name every file in what is said about the input.
+    #[arg(long, conflicts_with = "quiet")]
+    pub(crate) verbose: bool,
+    /// Say nothing about the input, show no progress and no summary.
     #[arg(long)]
     pub(crate) quiet: bool,
 }

@@ -31,7 +31,8 @@ pub(crate) enum DeviceChoice {
 /// How the numbers in the photographs relate to light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ColorChoice {
-    /// 8-bit JPEG and WebP are sRGB, everything else is linear.
+    /// As the files say (profile, gamma, format); where they say nothing, as their layout, their
+    /// shading or, last, what is usual.
     Auto,
     /// Twice the number is twice the light.
     Linear,

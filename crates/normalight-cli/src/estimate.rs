@@ -4,7 +4,7 @@ use crate::args::EstimateArgs;
 use crate::choices::word;
 use crate::progress::{ProgressObserver, Spinner};
 use crate::settings::Estimation;
-use crate::terminal::print;
+use crate::terminal::{note, print};
 use crate::{interrupt, outputs};
 use anyhow::{Context, Result, bail};
 use normalight_core::{CoreError, Light};
@@ -19,14 +19,23 @@ use std::time::Instant;
 /// Photographs in, files out. What can fail early comes first; nothing is written before all of it
 /// is computed.
 pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
-    check_apart(&args.inputs, &args.out)?;
-    let folder = OutputFolder::prepare(&args.out)?;
+    let Some(out) = &args.out else {
+        return dry_run(args);
+    };
+    if args.dry_run {
+        return dry_run(args);
+    }
+    check_apart(&args.inputs, out)?;
+    let folder = OutputFolder::prepare(out)?;
     let start = Instant::now();
     let estimation = Estimation::open(&args.estimation)?;
     let opened = start.elapsed();
     let reading = reading(args)?;
-    let input = read(args, &reading)?;
-    let lights = read_lights(args, &input)?;
+    let mut input = read(args, &reading)?;
+    let lights = read_lights(args, &mut input)?;
+    if !args.quiet {
+        note(said(args, &input).trim_end());
+    }
     let read = start.elapsed() - opened;
 
     let mut observer = ProgressObserver::new("", args.quiet);
@@ -69,7 +78,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         print(&outputs::summary(
             &report,
             &names,
-            &args.out.display().to_string(),
+            &out.display().to_string(),
         ))?;
     }
     Ok(Outcome::Done)
@@ -125,9 +134,28 @@ fn read(args: &EstimateArgs, reading: &ReadOptions) -> Result<StackInput> {
     }
 }
 
-fn read_lights(args: &EstimateArgs, input: &StackInput) -> Result<Option<Vec<Light>>> {
-    let lights = args.lights.as_ref();
-    Ok(lights
-        .map(|path| input.read_lights_path(path))
-        .transpose()?)
+fn read_lights(args: &EstimateArgs, input: &mut StackInput) -> Result<Option<Vec<Light>>> {
+    let Some(path) = &args.lights else {
+        return Ok(None);
+    };
+    let given = input.given_lights_path(path, args.light_axes)?;
+    Ok(Some(
+        input.accept_lights(&path.display().to_string(), given),
+    ))
+}
+
+/// What was taken for what.
+fn said(args: &EstimateArgs, input: &StackInput) -> String {
+    match args.verbose {
+        true => format!("{:#}", input.plan),
+        false => input.plan.to_string(),
+    }
+}
+
+/// Everything before the first computation.
+fn dry_run(args: &EstimateArgs) -> Result<Outcome> {
+    let mut input = read(args, &reading(args)?)?;
+    read_lights(args, &mut input)?;
+    print(&said(args, &input))?;
+    Ok(Outcome::Done)
 }

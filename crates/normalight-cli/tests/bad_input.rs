@@ -62,11 +62,8 @@ fn files_that_are_no_complete_images() {
     bench.fails(&[], &["003.png", "complete PNG"]);
     std::fs::write(bench.image(3), "").unwrap();
     bench.fails(&[], &["003.png", "empty"]);
-    let picture = DynamicImage::ImageRgb8(RgbImage::new(48, 48));
-    let jpeg = bench.place.path().join("a.jpg");
-    picture.save(&jpeg).unwrap();
-    std::fs::rename(&jpeg, bench.image(3)).unwrap();
-    bench.fails(&[], &["003.png", "JPEG", "PNG"]);
+    std::fs::write(bench.image(3), b"\0\0\0\x18ftypheic\0\0\0\0mif1heic").unwrap();
+    bench.fails(&[], &["003.png", "HEIC", "export"]);
 }
 
 #[test]
@@ -120,13 +117,11 @@ fn an_image_beyond_the_limit() {
 #[test]
 fn numbers_that_are_none() {
     let bench = Bench::new();
-    for value in [f32::NAN, f32::INFINITY] {
-        let mut picture = Rgb32FImage::new(48, 48);
-        picture.get_pixel_mut(20, 20)[1] = value;
-        let path = bench.photographs.join("000.exr");
-        DynamicImage::ImageRgb32F(picture).save(path).unwrap();
-        bench.fails(&[], &["000.exr", "finite"]);
-    }
+    let mut picture = Rgb32FImage::new(48, 48);
+    picture.get_pixel_mut(20, 20)[1] = f32::NAN;
+    let path = bench.photographs.join("000.exr");
+    DynamicImage::ImageRgb32F(picture).save(path).unwrap();
+    bench.fails(&[], &["000.exr", "finite"]);
 }
 
 #[test]

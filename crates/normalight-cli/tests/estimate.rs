@@ -337,3 +337,50 @@ fn furthest(one: &Path, two: &Path) -> f32 {
         .flat_map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()));
     far.fold(0.0, f32::max)
 }
+
+/// What is taken for what is said before anything is computed, and alone when that is all that is asked for.
+#[test]
+fn a_dry_run_says_the_plan_and_stops() {
+    let (place, photographs, out) = prepared();
+    std::fs::write(photographs.join("notes.txt"), "by hand\n").unwrap();
+    let dry = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_normalight"));
+        command.args(["estimate", path(&photographs), "--dry-run"]);
+        said(command.args(more).output().unwrap())
+    };
+    let short = dry(&[]);
+    for part in [
+        "photographs: 8 (by name): 001.png to 008.png",
+        "mask: mask.png",
+        "colour: ",
+    ] {
+        assert!(short.contains(part), "{part:?} is missing in {short}");
+    }
+    assert!(!short.contains("002.png") && dry(&["--verbose"]).contains("002.png"));
+    // Lights of a file whose y points down: given as such they are ours.
+    let ours = place.path().join("ours.csv");
+    let theirs = place.path().join("theirs.txt");
+    let truth = sample().lights;
+    let text = |sign: f32| {
+        let lights = truth.iter().map(|light| light.direction);
+        let lines = lights.map(|d| format!("{} {} {}\n", d.x, sign * d.y, d.z));
+        lines.collect::<String>()
+    };
+    std::fs::write(&ours, text(1.0)).unwrap();
+    std::fs::write(&theirs, text(-1.0)).unwrap();
+    let given = dry(&["--lights", path(&ours)]);
+    assert!(
+        given.contains("lights: ") && given.contains("ours.csv"),
+        "{given}"
+    );
+    let results = [
+        (&ours, "x-right,y-up,z-out"),
+        (&theirs, "x-right,y-down,z-out"),
+    ]
+    .map(|(lights, axes)| {
+        let more = ["--lights", path(lights), "--light-axes", axes, "--quiet"];
+        said(estimate(&photographs, &out, &more));
+        read_npy(&out.join("normals.npy"))
+    });
+    assert_eq!(results[0], results[1]);
+}

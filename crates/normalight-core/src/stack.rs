@@ -66,6 +66,14 @@ impl ImageStack {
         &self.images
     }
 
+    /// Says anew how the samples of one image relate to light.
+    ///
+    /// # Panics
+    /// There is no such image.
+    pub fn set_transfer(&mut self, image: usize, transfer: Transfer) {
+        self.images[image].transfer = transfer;
+    }
+
     /// Writes a rectangle of one image as linear RGB planes into `out`.
     ///
     /// # Shapes

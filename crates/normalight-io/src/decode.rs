@@ -1,36 +1,17 @@
-use crate::format::{detect_format, format_name};
+//! Bytes of an image to samples.
+mod exr;
+pub(crate) mod pfm;
+mod tiff;
+
+use crate::color::{ColorMode, Statement, of_png, profile::Profile};
+use crate::format::{detect_format, format_name, format_of_extension, split_extension};
 use crate::limits::{MAX_DECODE_BYTES, MAX_PIXELS};
-use crate::{IoError, jpeg};
+use crate::turn::turned;
+use crate::{IoError, Notice, jpeg};
+use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
-use normalight_core::{Mask, Samples, StackImage, Transfer, luminance};
-use serde::{Deserialize, Serialize};
-use std::fmt;
+use normalight_core::{Mask, Samples, StackImage, Transfer};
 use std::io::Cursor;
-
-/// How the samples of photographs are taken to relate to light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
-#[serde(rename_all = "lowercase")]
-pub enum ColorMode {
-    /// 8-bit JPEG and WebP are sRGB, everything else is linear.
-    #[default]
-    Auto,
-    /// All samples are linear.
-    Linear,
-    /// All integer samples are sRGB; floating-point ones stay linear.
-    Srgb,
-}
-
-impl fmt::Display for ColorMode {
-    /// The word of the command line and of `report.json`.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            ColorMode::Auto => "auto",
-            ColorMode::Linear => "linear",
-            ColorMode::Srgb => "srgb",
-        })
-    }
-}
 
 /// A decoded image: its colours, and its transparency when it has any.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,39 +23,110 @@ pub struct DecodedImage {
     pub alpha: Option<Mask>,
 }
 
-/// Decodes PNG, JPEG, TIFF, TGA, BMP, WebP or EXR from memory.
+/// An image as it is stored.
+pub(crate) struct Stored {
+    pub(crate) image: StackImage,
+    pub(crate) alpha: Option<Mask>,
+    /// How it would be turned upright.
+    pub(crate) orientation: Orientation,
+    /// How its samples were taken, in words; `None` when nothing says how to take them.
+    pub(crate) stated: Option<String>,
+    pub(crate) notices: Vec<Notice>,
+}
+
+/// Samples with all channels, and what the file says about them.
+struct Raw {
+    width: u32,
+    height: u32,
+    channels: usize,
+    samples: Samples,
+    statement: Statement,
+    orientation: Orientation,
+    pages: usize,
+}
+
+/// Decodes PNG, JPEG, TIFF, TGA, BMP, WebP, EXR, PNM or PFM from memory.
 ///
-/// Grey stays one channel, everything else becomes RGB; 8, 16 bits and float stay as they are.
+/// Grey stays one channel, everything else becomes RGB; 8, 16 bits and float stay as they are unless
+/// a colour profile makes linear light of them.
 ///
 /// # Errors
-/// Not an image, extension and content disagree, more than [`MAX_PIXELS`] (checked before any
-/// memory is taken), cut off or damaged.
+/// Not an image, more than [`MAX_PIXELS`] (checked before any memory is taken), cut off or damaged.
 pub fn decode_image(name: &str, bytes: &[u8], color: ColorMode) -> Result<DecodedImage, IoError> {
-    let format = detect_format(name, bytes)?;
-    let pixels = decode_pixels(name, bytes, format)?;
-    let (width, height) = (pixels.width() as usize, pixels.height() as usize);
-    let (samples, channels) = take_samples(pixels).ok_or_else(|| IoError::Decode {
-        name: name.to_owned(),
-        format: format_name(format),
-        reason: "its samples are of an unknown type".to_owned(),
-    })?;
-    let transfer = transfer_of(color, format, &samples);
-    let (samples, channels, alpha) = match samples {
-        Samples::U8(all) => {
-            let (kept, channels, alpha) = part_alpha(all, channels, |code| code > 127, |c| c < 255);
-            (Samples::U8(kept), channels, alpha)
-        }
-        Samples::U16(all) => {
-            let (kept, channels, alpha) =
-                part_alpha(all, channels, |code| code > 32_767, |c| c < 65_535);
-            (Samples::U16(kept), channels, alpha)
-        }
-        Samples::F32(all) => {
-            let (kept, channels, alpha) = part_alpha(all, channels, |v| v > 0.5, |v| v < 1.0);
-            (Samples::F32(kept), channels, alpha)
-        }
-    };
+    let stored = decode_stored(name, bytes, color)?;
     Ok(DecodedImage {
+        image: turned(stored.image, stored.orientation),
+        alpha: stored
+            .alpha
+            .map(|mask| turned_mask(mask, stored.orientation)),
+    })
+}
+
+/// A mask turned upright.
+pub(crate) fn turned_mask(mask: Mask, orientation: Orientation) -> Mask {
+    let image = StackImage {
+        name: String::new(),
+        width: mask.width(),
+        height: mask.height(),
+        channels: 1,
+        samples: Samples::U8(
+            mask.inside()
+                .iter()
+                .map(|&inside| u8::from(inside))
+                .collect(),
+        ),
+        transfer: Transfer::Linear,
+    };
+    let image = turned(image, orientation);
+    let Samples::U8(inside) = image.samples else {
+        return mask;
+    };
+    let inside = inside.iter().map(|&inside| inside > 0).collect();
+    Mask::new(image.width, image.height, inside)
+}
+
+/// As [`decode_image`], without turning.
+pub(crate) fn decode_stored(name: &str, bytes: &[u8], color: ColorMode) -> Result<Stored, IoError> {
+    let format = detect_format(name, bytes)?;
+    let raw = decode_raw(name, bytes, format)?;
+    let (width, height) = (raw.width as usize, raw.height as usize);
+    let mut notices = Vec::new();
+    if format_of_extension(name) != Some(format) {
+        notices.push(Notice::ContentOverExtension {
+            file: name.to_owned(),
+            content: format_name(format).to_owned(),
+            extension: split_extension(name).1.to_owned(),
+        });
+    }
+    if raw.pages > 1 {
+        notices.push(Notice::SeveralPages {
+            file: name.to_owned(),
+            pages: raw.pages,
+        });
+    }
+    let (samples, channels, alpha) = part_alpha(raw.samples, raw.channels);
+    let statement = taken(color, format, &samples, raw.statement);
+    if let Statement::Unknown(reason) = &statement {
+        notices.push(Notice::ProfileNotUnderstood {
+            file: name.to_owned(),
+            reason: reason.clone(),
+        });
+    }
+    let stated = (!matches!(statement, Statement::Nothing)).then(|| statement.words());
+    let (mut samples, transfer) = match (&statement, &samples) {
+        // Nothing says anything: 8 bits are nearly always made for viewing.
+        (Statement::Nothing, Samples::U8(_)) => (samples, Transfer::Srgb),
+        _ => statement.apply(samples, channels),
+    };
+    if let Samples::F32(values) = &mut samples
+        && let Some(samples) = tame_infinite(values)
+    {
+        notices.push(Notice::Infinite {
+            file: name.to_owned(),
+            samples,
+        });
+    }
+    Ok(Stored {
         image: StackImage {
             name: name.to_owned(),
             width,
@@ -84,40 +136,95 @@ pub fn decode_image(name: &str, bytes: &[u8], color: ColorMode) -> Result<Decode
             transfer,
         },
         alpha: alpha.map(|inside| Mask::new(width, height, inside)),
+        orientation: raw.orientation,
+        stated,
+        notices,
     })
 }
 
-/// Decodes an image as a mask: inside is where the luminance is above half.
-///
-/// # Errors
-/// As [`decode_image`].
-pub fn decode_mask(name: &str, bytes: &[u8]) -> Result<Mask, IoError> {
-    let StackImage {
+/// What is believed about the samples.
+fn taken(color: ColorMode, format: ImageFormat, samples: &Samples, said: Statement) -> Statement {
+    let floating = matches!(samples, Samples::F32(_));
+    match (color, said) {
+        (ColorMode::Linear, _) => Statement::Linear,
+        (ColorMode::Srgb, _) if !floating => Statement::Srgb,
+        (ColorMode::Srgb, _) => Statement::Linear,
+        (ColorMode::Auto, Statement::Nothing) if floating => Statement::Linear,
+        (ColorMode::Auto, Statement::Nothing)
+            if matches!(format, ImageFormat::Jpeg | ImageFormat::WebP) =>
+        {
+            Statement::Srgb
+        }
+        (ColorMode::Auto, Statement::Srgb) if floating => Statement::Power(2.2),
+        (ColorMode::Auto, said) => said,
+    }
+}
+
+/// Infinite values become the largest finite one; their number, when there were any.
+fn tame_infinite(values: &mut [f32]) -> Option<usize> {
+    let largest = values.iter().copied().filter(|value| value.is_finite());
+    let largest = largest.fold(0.0, f32::max);
+    if largest <= 0.0 {
+        return None;
+    }
+    let mut count = 0;
+    for value in values.iter_mut().filter(|value| value.is_infinite()) {
+        *value = if *value > 0.0 { largest } else { 0.0 };
+        count += 1;
+    }
+    (count > 0).then_some(count)
+}
+
+fn decode_raw(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Raw, IoError> {
+    let failed = |reason: String| IoError::Decode {
+        name: name.to_owned(),
+        format: format_name(format),
+        reason,
+    };
+    if format == ImageFormat::Tiff {
+        let page = tiff::decode(bytes).map_err(|failure| match failure {
+            tiff::Failure::Reason(reason) => failed(reason),
+            tiff::Failure::TooManyPixels(width, height) => too_large(name, width, height),
+        })?;
+        return Ok(Raw {
+            width: page.width,
+            height: page.height,
+            channels: page.channels,
+            samples: page.samples,
+            statement: page.statement,
+            orientation: page.orientation,
+            pages: page.pages,
+        });
+    }
+    let (pixels, statement, orientation) = decode_pixels(name, bytes, format)?;
+    let (width, height) = (pixels.width(), pixels.height());
+    let (samples, channels) = take_samples(pixels)
+        .ok_or_else(|| failed("its samples are of an unknown type".to_owned()))?;
+    Ok(Raw {
         width,
         height,
         channels,
         samples,
-        ..
-    } = decode_image(name, bytes, ColorMode::Linear)?.image;
-    let values: Vec<f32> = match samples {
-        Samples::U8(codes) => codes.iter().map(|&code| f32::from(code) / 255.0).collect(),
-        Samples::U16(codes) => codes
-            .iter()
-            .map(|&code| f32::from(code) / 65_535.0)
-            .collect(),
-        Samples::F32(values) => values,
-    };
-    let inside = values
-        .chunks_exact(channels)
-        .map(|pixel| match *pixel {
-            [r, g, b] => luminance([r, g, b]) > 0.5,
-            _ => pixel[0] > 0.5,
-        })
-        .collect();
-    Ok(Mask::new(width, height, inside))
+        statement,
+        orientation,
+        pages: 1,
+    })
 }
 
-fn decode_pixels(name: &str, bytes: &[u8], format: ImageFormat) -> Result<DynamicImage, IoError> {
+fn too_large(name: &str, width: u32, height: u32) -> IoError {
+    IoError::TooManyPixels {
+        name: name.to_owned(),
+        width,
+        height,
+        limit: MAX_PIXELS,
+    }
+}
+
+fn decode_pixels(
+    name: &str,
+    bytes: &[u8],
+    format: ImageFormat,
+) -> Result<(DynamicImage, Statement, Orientation), IoError> {
     let failed = |reason: String| IoError::Decode {
         name: name.to_owned(),
         format: format_name(format),
@@ -130,30 +237,43 @@ fn decode_pixels(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Dynami
         )),
         error => failed(error.to_string()),
     };
+    let check = |(width, height): (u32, u32)| match u64::from(width) * u64::from(height) {
+        0 => Err(failed(format!("it has {width}x{height} pixels"))),
+        pixels if pixels > MAX_PIXELS => Err(too_large(name, width, height)),
+        _ => Ok(()),
+    };
+    if pfm::is_pfm(bytes) && format == ImageFormat::Pnm {
+        let damaged = || failed("its float map is damaged".to_owned());
+        check(pfm::size(bytes).ok_or_else(damaged)?)?;
+        let pixels = pfm::decode(bytes).ok_or_else(damaged)?;
+        return Ok((pixels, Statement::Linear, Orientation::NoTransforms));
+    }
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_DECODE_BYTES);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(failed_decoding)?;
-    let (width, height) = decoder.dimensions();
-    if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(IoError::TooManyPixels {
-            name: name.to_owned(),
-            width,
-            height,
-            limit: MAX_PIXELS,
-        });
-    }
-    if width == 0 || height == 0 {
-        return Err(failed(format!("it has {width}x{height} pixels")));
-    }
+    let mut decoder = match reader.into_decoder() {
+        Err(_) if format == ImageFormat::OpenExr => {
+            let pixels = exr::decode(bytes).map_err(failed)?;
+            return Ok((pixels, Statement::Linear, Orientation::NoTransforms));
+        }
+        decoder => decoder.map_err(failed_decoding)?,
+    };
+    check(decoder.dimensions())?;
     if format == ImageFormat::Jpeg && !jpeg::is_complete(bytes) {
         return Err(failed("its end is missing".to_owned()));
     }
+    let statement = match format {
+        ImageFormat::Png => of_png(bytes),
+        // A damaged profile must not hide a good picture.
+        _ => match decoder.icc_profile() {
+            Ok(Some(profile)) => Profile::statement(&profile),
+            _ => Statement::Nothing,
+        },
+    };
     let orientation = decoder.orientation().map_err(failed_decoding)?;
-    let mut pixels = DynamicImage::from_decoder(decoder).map_err(failed_decoding)?;
-    pixels.apply_orientation(orientation);
-    Ok(pixels)
+    let pixels = DynamicImage::from_decoder(decoder).map_err(failed_decoding)?;
+    Ok((pixels, statement, orientation))
 }
 
 /// The samples of an image and its number of channels, alpha included.
@@ -173,21 +293,27 @@ fn take_samples(pixels: DynamicImage) -> Option<(Samples, usize)> {
     })
 }
 
-fn transfer_of(color: ColorMode, format: ImageFormat, samples: &Samples) -> Transfer {
-    match (color, samples) {
-        (_, Samples::F32(_)) | (ColorMode::Linear, _) => Transfer::Linear,
-        (ColorMode::Srgb, _) => Transfer::Srgb,
-        (ColorMode::Auto, Samples::U8(_))
-            if matches!(format, ImageFormat::Jpeg | ImageFormat::WebP) =>
-        {
-            Transfer::Srgb
+/// Colours, their number of channels, and which pixels are opaque.
+fn part_alpha(samples: Samples, channels: usize) -> (Samples, usize, Option<Vec<bool>>) {
+    match samples {
+        Samples::U8(all) => {
+            let (kept, channels, alpha) = parted(all, channels, |code| code > 127, |c| c < 255);
+            (Samples::U8(kept), channels, alpha)
         }
-        (ColorMode::Auto, _) => Transfer::Linear,
+        Samples::U16(all) => {
+            let (kept, channels, alpha) =
+                parted(all, channels, |code| code > 32_767, |c| c < 65_535);
+            (Samples::U16(kept), channels, alpha)
+        }
+        Samples::F32(all) => {
+            let (kept, channels, alpha) = parted(all, channels, |v| v > 0.5, |v| v < 1.0);
+            (Samples::F32(kept), channels, alpha)
+        }
     }
 }
 
 /// Parts interleaved samples into colours and alpha; the alpha is dropped when all of it is opaque.
-fn part_alpha<T: Copy>(
+fn parted<T: Copy>(
     samples: Vec<T>,
     channels: usize,
     is_inside: impl Fn(T) -> bool,

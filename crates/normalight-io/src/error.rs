@@ -31,16 +31,6 @@ pub enum IoError {
         /// The formats that are read.
         expected: &'static str,
     },
-    /// The extension says one format, the content is another.
-    #[error("{name}: the content is {found}, but its extension says {expected}; rename the file")]
-    WrongExtension {
-        /// The file.
-        name: String,
-        /// Format of the content.
-        found: &'static str,
-        /// Format that the extension promises.
-        expected: &'static str,
-    },
     /// The file is of a known format but damaged, cut off, or of a variant that is not read.
     #[error("{name}: expected a complete {format} image, but: {reason}")]
     Decode {
@@ -97,6 +87,32 @@ pub enum IoError {
         /// Smallest number that works.
         expected: usize,
     },
+    /// No photographs lie in a folder, but some in folders below it.
+    #[error("{name}: no photographs here, but {below}; give that folder")]
+    PhotographsBelow {
+        /// The folder.
+        name: String,
+        /// The folders below with their numbers of photographs, in words.
+        below: String,
+    },
+    /// The same shots lie side by side in two formats or depths.
+    #[error(
+        "{first} and {second}: the same shot twice, as {shots} of the shots; give one kind of them only"
+    )]
+    Copies {
+        /// One file.
+        first: String,
+        /// The other file of the same shot.
+        second: String,
+        /// Number of shots that are there more than once.
+        shots: usize,
+    },
+    /// All photographs are the same picture.
+    #[error("{first} and all others are the same picture: each photograph needs another light")]
+    AllIdentical {
+        /// The first photograph.
+        first: String,
+    },
     /// Fewer images were asked for than photometric stereo works with.
     #[error("{name}: {found} image(s) were asked for, at least {expected} are needed")]
     TooFewRequested {
@@ -136,7 +152,7 @@ pub enum IoError {
         expected: usize,
     },
     /// A line of a light file cannot be understood, or its values make no light.
-    #[error("{name}, line {line}: found {found:?}, expected {expected}")]
+    #[error("{name}{}: found {found:?}, expected {expected}", line_label(*line))]
     LightFormat {
         /// The light file.
         name: String,
@@ -146,6 +162,18 @@ pub enum IoError {
         found: String,
         /// What was expected.
         expected: String,
+    },
+    /// Most lights of a file lie behind the object.
+    #[error(
+        "{name}: {behind} of {of} lights lie behind the object (z is negative); expected x right, y up, z to the camera. If the file's y points down and its z into the scene, say that its axes are x-right,y-down,z-in (--light-axes)"
+    )]
+    LightsBehind {
+        /// The light file.
+        name: String,
+        /// How many lie behind the object.
+        behind: usize,
+        /// Of how many.
+        of: usize,
     },
     /// A file of true normals is not as expected.
     #[error("{name}: found {found}, expected {expected}")]
@@ -234,4 +262,11 @@ pub enum IoError {
     /// The images or the mask do not fit each other.
     #[error(transparent)]
     Core(#[from] CoreError),
+}
+
+fn line_label(line: usize) -> String {
+    match line {
+        0 => String::new(),
+        line => format!(", line {line}"),
+    }
 }

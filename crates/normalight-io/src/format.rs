@@ -1,8 +1,9 @@
 use crate::IoError;
+use crate::decode::pfm;
 use image::ImageFormat;
 
 /// Names of the formats that are read, for messages.
-pub(crate) const READ_FORMATS: &str = "PNG, JPEG, TIFF, TGA, BMP, WebP or EXR";
+pub(crate) const READ_FORMATS: &str = "PNG, JPEG, TIFF, TGA, BMP, WebP, EXR or PGM/PPM/PFM";
 
 /// A name without the folders before it, whichever way the slashes lean.
 pub(crate) fn base_name(name: &str) -> &str {
@@ -27,6 +28,7 @@ pub(crate) fn format_of_extension(name: &str) -> Option<ImageFormat> {
             "bmp" => ImageFormat::Bmp,
             "webp" => ImageFormat::WebP,
             "exr" => ImageFormat::OpenExr,
+            "pgm" | "ppm" | "pbm" | "pnm" | "pam" | "pfm" => ImageFormat::Pnm,
             _ => return None,
         },
     )
@@ -53,39 +55,78 @@ pub(crate) fn format_name(format: ImageFormat) -> &'static str {
         ImageFormat::Bmp => "BMP",
         ImageFormat::WebP => "WebP",
         ImageFormat::OpenExr => "EXR",
+        ImageFormat::Pnm => "PNM",
         ImageFormat::Gif => "GIF",
         _ => "another image format",
     }
 }
 
-/// The error for a file whose extension is that of no image.
+/// How people call a format of photographs that is not read, by its extension in lower case.
+pub(crate) fn unread_format(extension: &str) -> Option<&'static str> {
+    Some(match extension {
+        "heic" | "heif" | "hif" => "HEIC",
+        "avif" => "AVIF",
+        "jxl" => "JPEG XL",
+        "jp2" | "j2k" => "JPEG 2000",
+        "gif" => "GIF",
+        "psd" | "psb" => "Photoshop",
+        "dng" | "cr2" | "cr3" | "nef" | "nrw" | "arw" | "raf" | "orf" | "rw2" | "pef" | "srw" => {
+            "camera RAW"
+        }
+        _ => return None,
+    })
+}
+
+/// How people call content that is a photograph in a format that is not read.
+fn unread_content(bytes: &[u8]) -> Option<&'static str> {
+    let brand = bytes.get(4..12).and_then(|head| head.strip_prefix(b"ftyp"));
+    match (brand, bytes) {
+        (Some(b"avif" | b"avis"), _) => Some("AVIF"),
+        (Some(b"crx "), _) => Some("camera RAW"),
+        (Some(_), _) => Some("HEIC"),
+        (_, [b'G', b'I', b'F', b'8', ..]) => Some("GIF"),
+        (_, [0xFF, 0x0A, ..]) => Some("JPEG XL"),
+        (_, [b'8', b'B', b'P', b'S', ..]) => Some("Photoshop"),
+        (_, [b'I', b'I', b'*', 0, _, _, _, _, b'C', b'R', ..]) => Some("camera RAW"),
+        _ => None,
+    }
+}
+
+/// The error for a file whose extension is that of no image that is read.
 pub(crate) fn not_an_image(name: &str) -> IoError {
     let extension = split_extension(name).1;
+    let found = match unread_format(&extension.to_ascii_lowercase()) {
+        Some(format) => unread(format),
+        None => format!("a file with extension {extension:?}"),
+    };
     IoError::NotAnImage {
         name: name.to_owned(),
-        found: format!("a file with extension {extension:?}"),
+        found,
         expected: READ_FORMATS,
     }
 }
 
-/// The format of a file, on which its extension and its first bytes must agree.
+fn unread(format: &str) -> String {
+    format!("a photograph in {format}, which is not read (export it as TIFF or PNG of 16 bits)")
+}
+
+/// The format of a file: its content decides, whatever the extension of an image says.
 ///
 /// TGA has no mark at its beginning: there the extension decides, unless the content is marked as
 /// another format.
 pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
     let promised = format_of_extension(name).ok_or_else(|| not_an_image(name))?;
-    let found = match image::guess_format(bytes) {
-        Ok(found) if found == promised => return Ok(promised),
-        Ok(found) => {
-            return Err(IoError::WrongExtension {
-                name: name.to_owned(),
-                found: format_name(found),
-                expected: format_name(promised),
-            });
+    let found = match (image::guess_format(bytes), unread_content(bytes)) {
+        (_, Some(format)) => unread(format),
+        (Ok(found), _) if format_name(found) != format_name(ImageFormat::Ico) => return Ok(found),
+        // Files beyond 4 GiB, which the library does not tell.
+        _ if matches!(bytes, [b'I', b'I', b'+', 0, ..] | [b'M', b'M', 0, b'+', ..]) => {
+            return Ok(ImageFormat::Tiff);
         }
-        Err(_) if bytes.is_empty() => "an empty file".to_owned(),
-        Err(_) if promised == ImageFormat::Tga => return Ok(promised),
-        Err(_) => format!("content that is not {}", format_name(promised)),
+        _ if pfm::is_pfm(bytes) => return Ok(ImageFormat::Pnm),
+        _ if bytes.is_empty() => "an empty file".to_owned(),
+        _ if promised == ImageFormat::Tga => return Ok(promised),
+        _ => format!("content that is not {}", format_name(promised)),
     };
     Err(IoError::NotAnImage {
         name: name.to_owned(),

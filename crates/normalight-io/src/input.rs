@@ -1,6 +1,7 @@
 //! What a stack is read from, how, and what comes out.
-use crate::ColorMode;
-use normalight_core::{ImageStack, Mask, MaskSource};
+use crate::input_plan::LightsDecision;
+use crate::{ColorMode, GivenLights, InputPlan};
+use normalight_core::{ImageStack, Light, Mask, MaskSource};
 
 /// A file in memory.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,7 +20,7 @@ pub enum MaskChoice {
     Auto,
     /// Every pixel belongs to the object.
     WholeFrame,
-    /// This image: inside is where it is brighter than half.
+    /// This image, see [`decode_mask`](crate::decode_mask).
     File(NamedBytes),
 }
 
@@ -48,7 +49,7 @@ pub struct ReadOptions {
 /// A stack as read, ready for the pipeline.
 #[derive(Debug, Clone)]
 pub struct StackInput {
-    /// The images; their names are file names without folders.
+    /// The images; their names are file names, with folders only where names repeat.
     pub stack: ImageStack,
     /// The object's pixels; checked to fit the stack and to have some light inside.
     pub mask: Mask,
@@ -59,6 +60,8 @@ pub struct StackInput {
     /// Position in `file_names` of each image of the stack: all of them unless
     /// [`ReadOptions::images`] chose some.
     pub picked: Vec<usize>,
+    /// What was decided about the files, and what is doubtful.
+    pub plan: InputPlan,
 }
 
 impl StackInput {
@@ -66,6 +69,16 @@ impl StackInput {
     pub fn picked_names(&self) -> Vec<String> {
         let images = self.stack.images().iter();
         images.map(|image| image.name.clone()).collect()
+    }
+
+    /// Takes lights that were given in a file, and keeps in the plan how they were found.
+    pub fn accept_lights(&mut self, file: &str, given: GivenLights) -> Vec<Light> {
+        self.plan.lights = Some(LightsDecision {
+            file: file.to_owned(),
+            matched: given.matched,
+        });
+        self.plan.notices.extend(given.notices);
+        given.lights
     }
 
     /// Where the mask came from, in words or by its file name: for people and for the report.

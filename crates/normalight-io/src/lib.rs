@@ -29,46 +29,69 @@
 //! ```
 #![deny(missing_docs)]
 
+mod assemble;
+mod color;
 mod decode;
 mod error;
 mod format;
 mod input;
+mod input_plan;
 mod jpeg;
+mod light_array;
+mod light_axes;
 mod light_exports;
 mod light_file;
 mod light_map;
+mod light_match;
+mod light_table;
 mod light_text;
 mod limits;
 mod maps;
+mod mask_file;
 mod mesh;
+mod names;
+mod notice;
 mod photographs;
 mod plan;
 mod previews;
 mod report;
 mod result_files;
+mod shots;
 mod stack;
+mod text;
+mod turn;
 
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
 
-pub use decode::{ColorMode, DecodedImage, decode_image, decode_mask};
+pub use color::ColorMode;
+pub use decode::{DecodedImage, decode_image};
 pub use error::IoError;
 pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
+pub use input_plan::{
+    ColorDecision, ColorReason, InputPlan, LeftOut, LeftOutReason, LightsDecision, Order,
+};
+pub use light_axes::{LightAxes, LightAxesError};
 pub use light_exports::{lights_csv, lights_lp};
-pub use light_file::read_lights;
+pub use light_file::GivenLights;
 pub use light_map::lights_svg;
+pub use light_match::read_lights;
 pub use limits::{MAX_FILE_BYTES, MAX_MESH_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES};
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
+pub use mask_file::decode_mask;
 pub use mesh::read_mesh;
+pub use names::NameMatch;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{
     DiligentObject, ObjectToPublish, OutputFolder, PublishedEntry, PublishedObject, PublishedPart,
     PublishedSet, PublishedSplit, PublishedWriter, list_diligent_objects, mesh_files,
     read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths, write_files,
 };
+pub use notice::Notice;
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
 pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json};
 pub use result_files::{OutputName, RunDescription, result_files};
-pub use stack::{read_stack, read_text};
+pub use stack::read_stack;
+pub use text::read_text;

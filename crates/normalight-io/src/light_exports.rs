@@ -1,7 +1,19 @@
 //! Lights as files for other programs.
 use crate::IoError;
-use crate::light_text::{CsvRow, check_count};
+use crate::light_text::{check_count, parse_number};
 use normalight_core::{Light, Vec3};
+use serde::Serialize;
+
+/// One line of `lights.csv`.
+#[derive(Serialize)]
+struct CsvRow<'a> {
+    file: &'a str,
+    x: f32,
+    y: f32,
+    z: f32,
+    intensity: f32,
+    confidence: f32,
+}
 
 /// `lights.csv`: a line `file,x,y,z,intensity,confidence` for each image; intensity is the mean of
 /// the channels. [`read_lights`](crate::read_lights) reads it again.
@@ -18,7 +30,7 @@ pub fn lights_csv(file_names: &[String], lights: &[Light]) -> Result<Vec<u8>, Io
     for (file, light) in file_names.iter().zip(lights) {
         writer
             .serialize(CsvRow {
-                file: file.clone(),
+                file,
                 x: light.direction.x,
                 y: light.direction.y,
                 z: light.direction.z,
@@ -42,7 +54,14 @@ pub fn lights_lp(file_names: &[String], lights: &[Light]) -> Result<Vec<u8>, IoE
     for (file, light) in file_names.iter().zip(lights) {
         let Vec3 { x, y, z } = light.direction;
         // A line break in a name would start a new light.
-        let file = file.replace(['\n', '\r'], " ");
+        let mut file = file.replace(['\n', '\r'], " ");
+        // A name of numbers alone would be taken for some.
+        if file
+            .split_whitespace()
+            .all(|word| parse_number(word).is_some())
+        {
+            file = format!("\"{file}\"");
+        }
         text.push_str(&format!("{file} {x:.6} {y:.6} {z:.6}\n"));
     }
     Ok(text.into_bytes())

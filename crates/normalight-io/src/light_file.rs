@@ -1,100 +1,180 @@
-//! Light files of any kind, and which of their lights belongs to which image.
-use crate::format::{base_name, split_extension};
-use crate::light_text::{check_count, parse_csv, parse_rows};
-use crate::{IoError, StackInput};
-use normalight_core::Light;
+//! Light files of any kind.
+use crate::format::split_extension;
+use crate::light_axes::LightAxes;
+use crate::light_text::{check_count, check_direction, is_intensity, parse_rows, wrong_line};
+use crate::text::read_text;
+use crate::{IoError, NameMatch, Notice, light_array, light_table};
+use normalight_core::{Light, Vec3};
+
+/// One light as it stands in its file.
+#[derive(Debug, Clone)]
+pub(crate) struct LightRow {
+    pub(crate) file: Option<String>,
+    /// Not zero, not yet of unit length, in the file's axes.
+    pub(crate) vector: Vec3,
+    pub(crate) intensity: [f32; 3],
+    pub(crate) confidence: f32,
+}
 
 /// The lights of a file, with the image names that stand beside them.
+#[derive(Debug)]
 pub(crate) struct LightFile {
-    name: String,
-    pub(crate) rows: Vec<(Option<String>, Light)>,
+    pub(crate) name: String,
+    pub(crate) rows: Vec<LightRow>,
+    pub(crate) axes: LightAxes,
+    pub(crate) notices: Vec<Notice>,
+}
+
+/// Lights that were given, one for each photograph, and how they were found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenLights {
+    /// One light for each photograph.
+    pub lights: Vec<Light>,
+    /// The least sure rule by which a light was matched with its photograph.
+    pub matched: NameMatch,
+    /// What is doubtful about them.
+    pub notices: Vec<Notice>,
 }
 
 impl LightFile {
     pub(crate) fn parse(name: &str, bytes: &[u8]) -> Result<Self, IoError> {
-        let rows = if split_extension(name).1.eq_ignore_ascii_case("csv") {
-            parse_csv(name, bytes)?
-        } else {
-            let rows = parse_rows(name, bytes)?.into_iter();
-            rows.map(|row| Ok((Light::new(row.direction(name)?, 1.0), row.file)))
-                .map(|row| row.map(|(light, file)| (file, light)))
-                .collect::<Result<_, IoError>>()?
-        };
-        Ok(Self {
+        let mut file = Self {
             name: name.to_owned(),
-            rows,
-        })
-    }
-
-    /// One light for each image: by name where any name matches, else by order.
-    pub(crate) fn for_images(&self, file_names: &[String]) -> Result<Vec<Light>, IoError> {
-        if let Some(lights) = self.by_name(file_names) {
-            return lights;
-        }
-        check_count(&self.name, self.rows.len(), file_names.len())?;
-        Ok(self.rows.iter().map(|(_, light)| *light).collect())
-    }
-
-    /// One light for each image that was read; the file may have been made for all images found.
-    pub(crate) fn for_input(&self, input: &StackInput) -> Result<Vec<Light>, IoError> {
-        let names = input.picked_names();
-        if let Some(lights) = self.by_name(&names) {
-            return lights;
-        }
-        if self.rows.len() == names.len() {
-            return self.for_images(&names);
-        }
-        let all = self.for_images(&input.file_names)?;
-        Ok(input.picked.iter().map(|&index| all[index]).collect())
-    }
-
-    /// `None` when no image's name is in the file.
-    fn by_name(&self, file_names: &[String]) -> Option<Result<Vec<Light>, IoError>> {
-        let light_of = |file: &String| {
-            let named = |row: &&(Option<String>, Light)| {
-                let row_file = row.0.as_deref().map(base_name);
-                row_file == Some(base_name(file))
-            };
-            self.rows.iter().find(named).map(|(_, light)| *light)
+            rows: Vec::new(),
+            axes: LightAxes::default(),
+            notices: Vec::new(),
         };
-        let matched: Vec<Option<Light>> = file_names.iter().map(light_of).collect();
-        if matched.iter().all(Option::is_none) {
-            return None;
+        if let Some(rows) = light_array::parse(name, bytes) {
+            file.rows = rows?;
+            return Ok(file);
         }
-        let complete = matched.into_iter().zip(file_names).map(|(light, file)| {
-            light.ok_or_else(|| IoError::LightFormat {
-                name: self.name.clone(),
-                line: 0,
-                found: format!("{} lights of other images", self.rows.len()),
-                expected: format!("a light for {file}"),
-            })
-        });
-        Some(complete.collect())
+        if let Some(table) = light_table::parse(name, &read_text(name, bytes)?) {
+            let table = table?;
+            file.rows = table.rows;
+            if let Some(unit) = table.angles {
+                file.notices.push(Notice::LightsAsAngles {
+                    file: name.to_owned(),
+                    unit: unit.to_owned(),
+                });
+            }
+            return Ok(file);
+        }
+        file.parse_lines(bytes)?;
+        Ok(file)
     }
-}
 
-/// Reads one light for each image: our `lights.csv`, an `.lp` file (count, then `name x y z`), or
-/// lines of `x y z` (unit length or not) with or without a count before them, as DiLiGenT's
-/// `light_directions.txt` and UW's `lights.txt` have them.
-///
-/// Lines with file names are matched with `file_names` (folders do not count) and may cover more
-/// images than these. When no name matches, and in files without names, the order counts and there
-/// must be as many lines as names. Files without intensities give intensity 1.
-///
-/// # Errors
-/// [`IoError::LightCount`]; [`IoError::LightFormat`] for lines that cannot be understood, vectors
-/// that are zero or not finite, and images that a file with names leaves out.
-pub fn read_lights(name: &str, bytes: &[u8], file_names: &[String]) -> Result<Vec<Light>, IoError> {
-    LightFile::parse(name, bytes)?.for_images(file_names)
-}
+    pub(crate) fn with_axes(self, axes: LightAxes) -> Self {
+        Self { axes, ..self }
+    }
 
-impl StackInput {
-    /// As [`read_lights`], for the images of this stack; a file without names may have a line for
-    /// each of them or for each image found.
-    ///
-    /// # Errors
-    /// Those of [`read_lights`].
-    pub fn read_lights(&self, name: &str, bytes: &[u8]) -> Result<Vec<Light>, IoError> {
-        LightFile::parse(name, bytes)?.for_input(self)
+    fn parse_lines(&mut self, bytes: &[u8]) -> Result<(), IoError> {
+        let name = &self.name;
+        let is_table = split_extension(name).1.eq_ignore_ascii_case("csv");
+        let lines = parse_rows(name, bytes).map_err(|error| match error {
+            IoError::LightFormat { line: 1, found, .. } if is_table => {
+                wrong_line(name, 1, &found, light_table::HEADING)
+            }
+            error => error,
+        })?;
+        for row in &lines.rows {
+            let (vector, intensity) = match row.numbers[..] {
+                [x, y, z] => ([x, y, z], [1.0; 3]),
+                [x, y, z, grey] if row.file.is_some() => ([x, y, z], [grey; 3]),
+                [x, y, z, r, g, b] => ([x, y, z], [r, g, b]),
+                _ => return Err(row.wrong(name, "the three numbers x y z")),
+            };
+            let vector = Vec3::from(vector);
+            if check_direction(vector).is_none() {
+                return Err(row.wrong(name, "a finite vector that is not zero"));
+            }
+            if !intensity.into_iter().all(is_intensity) {
+                return Err(row.wrong(name, "intensities above zero"));
+            }
+            self.rows.push(LightRow {
+                file: row.file.clone(),
+                vector,
+                intensity,
+                confidence: 1.0,
+            });
+        }
+        if let Some(said) = lines.declared
+            && said != self.rows.len()
+        {
+            // Without names nobody can tell which light is missing.
+            if self.rows.iter().any(|row| row.file.is_none()) || self.rows.is_empty() {
+                check_count(name, self.rows.len(), said)?;
+            }
+            self.notices.push(Notice::LightsCountLine {
+                file: name.clone(),
+                said,
+                found: self.rows.len(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The light of a row in our axes.
+    pub(crate) fn light(&self, row: usize) -> Light {
+        let LightRow {
+            vector,
+            intensity,
+            confidence,
+            ..
+        } = self.rows[row];
+        let unit = check_direction(vector).unwrap_or(Vec3::Z);
+        Light {
+            intensity,
+            confidence,
+            ..Light::new(self.axes.to_ours(unit), 1.0)
+        }
+    }
+
+    /// The lights of these rows, with what is doubtful about them.
+    pub(crate) fn given(
+        &self,
+        rows: &[usize],
+        matched: NameMatch,
+        mut notices: Vec<Notice>,
+    ) -> Result<GivenLights, IoError> {
+        let lights: Vec<Light> = rows.iter().map(|&row| self.light(row)).collect();
+        let (behind, of) = (
+            lights
+                .iter()
+                .filter(|light| light.direction.z < 0.0)
+                .count(),
+            lights.len(),
+        );
+        let file = self.name.clone();
+        if 2 * behind > of {
+            return Err(IoError::LightsBehind {
+                name: file,
+                behind,
+                of,
+            });
+        }
+        notices.splice(0..0, self.notices.iter().cloned());
+        if behind > 0 {
+            notices.push(Notice::LightsBehind {
+                file: file.clone(),
+                behind,
+                of,
+            });
+        }
+        let lengths = rows.iter().map(|&row| self.rows[row].vector.length());
+        let (shortest, longest) = lengths.fold((f32::MAX, 0.0f32), |(low, high), length| {
+            (low.min(length), high.max(length))
+        });
+        if of > 0 && (shortest < 0.98 || longest > 1.02) {
+            notices.push(Notice::LightsNotUnit {
+                file,
+                shortest,
+                longest,
+            });
+        }
+        Ok(GivenLights {
+            lights,
+            matched,
+            notices,
+        })
     }
 }

@@ -1,20 +1,9 @@
 //! The lines of light files.
 use crate::IoError;
-use crate::stack::read_text;
-use csv::{Position, ReaderBuilder, Trim};
-use normalight_core::{Light, Vec3};
-use serde::{Deserialize, Serialize};
-
-/// One line of `lights.csv`.
-#[derive(Debug, Serialize, Deserialize)]
-pub(crate) struct CsvRow {
-    pub(crate) file: String,
-    pub(crate) x: f32,
-    pub(crate) y: f32,
-    pub(crate) z: f32,
-    pub(crate) intensity: f32,
-    pub(crate) confidence: f32,
-}
+use crate::format::format_of_extension;
+use crate::names::unquoted;
+use crate::text::read_text;
+use normalight_core::Vec3;
 
 /// One line of numbers, with the file name that may stand before them.
 pub(crate) struct Row {
@@ -25,72 +14,55 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    pub(crate) fn direction(&self, name: &str) -> Result<Vec3, IoError> {
-        let [x, y, z] = self.numbers[..] else {
-            return Err(self.wrong(name, "the three numbers x y z"));
-        };
-        check_direction(Vec3::new(x, y, z))
-            .ok_or_else(|| self.wrong(name, "a finite vector that is not zero"))
-    }
-
     pub(crate) fn wrong(&self, name: &str, expected: &str) -> IoError {
         wrong_line(name, self.line, &self.text, expected)
     }
 }
 
-/// Lines of `x y z` or `file x y z`, whose first may be the number of lines after it.
-pub(crate) fn parse_rows(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
+/// Lines of numbers, alone or after a name.
+pub(crate) struct Rows {
+    pub(crate) rows: Vec<Row>,
+    /// The number of lines, when the first line says it.
+    pub(crate) declared: Option<usize>,
+}
+
+/// Lines of `count` numbers (see [`parse_rows`]'s callers), whose first may be the number of lines
+/// after it. A running number before the numbers of every line is no number of its own: the lines
+/// are brought into its order.
+pub(crate) fn parse_rows(name: &str, bytes: &[u8]) -> Result<Rows, IoError> {
     let mut rows = parse_lines(name, bytes)?;
     let declared = rows
         .first()
         .filter(|row| row.file.is_none() && row.numbers.len() == 1)
         .and_then(|row| row.text.parse::<usize>().ok());
-    if let Some(declared) = declared {
+    // One number on each line are intensities.
+    let declared = declared.filter(|_| rows.get(1).is_none_or(|row| row.numbers.len() > 1));
+    if declared.is_some() {
         rows.remove(0);
-        check_count(name, rows.len(), declared)?;
     }
-    Ok(rows)
+    drop_running_numbers(&mut rows);
+    Ok(Rows { rows, declared })
 }
 
-/// Our own `lights.csv`.
-pub(crate) fn parse_csv(name: &str, bytes: &[u8]) -> Result<Vec<(Option<String>, Light)>, IoError> {
-    let text = read_text(name, bytes)?;
-    let mut reader = ReaderBuilder::new()
-        .trim(Trim::All)
-        .from_reader(text.as_bytes());
-    let failed = |position: Option<&Position>, error: &csv::Error| {
-        let line = position.map_or(0, Position::line) as usize;
-        let expected = "file,x,y,z,intensity,confidence";
-        wrong_line(name, line, &error.to_string(), expected)
+fn drop_running_numbers(rows: &mut Vec<Row>) {
+    let Some(width) = rows.first().map(|row| row.numbers.len()) else {
+        return;
     };
-    let header = reader.headers().map_err(|e| failed(e.position(), &e))?;
-    let header = header.clone();
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|e| failed(e.position(), &e))?;
-        let row: CsvRow = record
-            .deserialize(Some(&header))
-            .map_err(|e| failed(record.position(), &e))?;
-        let wrong = |found: String, expected| {
-            let line = record.position().map_or(0, Position::line) as usize;
-            wrong_line(name, line, &found, expected)
-        };
-        let vector = Vec3::new(row.x, row.y, row.z);
-        let direction = check_direction(vector)
-            .ok_or_else(|| wrong(vector.to_string(), "a finite vector that is not zero"))?;
-        if !is_intensity(row.intensity) {
-            return Err(wrong(row.intensity.to_string(), "an intensity above zero"));
-        }
-        if !(0.0..=1.0).contains(&row.confidence) {
-            return Err(wrong(row.confidence.to_string(), "a confidence in 0..1"));
-        }
-        let light = Light {
-            confidence: row.confidence,
-            ..Light::new(direction, row.intensity)
-        };
-        rows.push((Some(row.file), light));
+    let numbered = |row: &Row| row.file.is_none() && row.numbers.len() == width;
+    if !matches!(width, 2 | 4) || !rows.iter().all(numbered) {
+        return;
     }
-    Ok(rows)
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by(|&a, &b| rows[a].numbers[0].total_cmp(&rows[b].numbers[0]));
+    let first = rows[order[0]].numbers[0];
+    let runs = |(place, &row): (usize, &usize)| rows[row].numbers[0] == first + place as f32;
+    if !matches!(first, 0.0 | 1.0) || !order.iter().enumerate().all(runs) {
+        return;
+    }
+    rows.sort_by(|a, b| a.numbers[0].total_cmp(&b.numbers[0]));
+    for row in rows {
+        row.numbers.remove(0);
+    }
 }
 
 pub(crate) fn check_count(name: &str, found: usize, expected: usize) -> Result<(), IoError> {
@@ -123,54 +95,141 @@ pub(crate) fn wrong_line(name: &str, line: usize, found: &str, expected: &str) -
     }
 }
 
-/// Lines of numbers, alone or after a file name.
-pub(crate) fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
+fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
     let text = read_text(name, bytes)?;
     let mut rows = Vec::new();
-    for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+    for (index, line) in text.lines().enumerate() {
         let line = line.trim();
-        if line.is_empty() || line.starts_with('#') {
+        if line.is_empty() || line.starts_with(['#', '%']) {
             continue;
         }
-        let words: Vec<&str> = line
-            .split(|c: char| c.is_whitespace() || c == ',')
-            .filter(|word| !word.is_empty())
-            .collect();
-        let (file, numbers) = match words.len() {
-            0..=3 => (None, parse_numbers(words)),
-            _ => parse_named(line),
-        };
         let row = Row {
-            file,
+            file: None,
             line: index + 1,
             text: line.to_owned(),
             numbers: Vec::new(),
         };
-        let Some(numbers) = numbers else {
+        let Some((file, numbers)) = parse_line(line) else {
             return Err(row.wrong(name, "the three numbers x y z, after a file name or alone"));
         };
-        rows.push(Row { numbers, ..row });
+        rows.push(Row {
+            file,
+            numbers,
+            ..row
+        });
     }
     Ok(rows)
 }
 
-/// `name x y z`: the name may hold spaces and commas, but a number is a column too many.
-fn parse_named(line: &str) -> (Option<String>, Option<Vec<f32>>) {
-    let mut rest = line;
-    let mut values = Vec::with_capacity(3);
-    for _ in 0..3 {
-        let Some((before, word)) = rest.rsplit_once(char::is_whitespace) else {
-            return (None, None);
-        };
-        values.insert(0, word);
-        rest = before.trim_end();
+/// The name and the numbers of a line.
+///
+/// Commas part numbers (`0.1,0.2`) or are decimal signs (`0,1 0,2`): where spaces or semicolons
+/// part the line into numbers already, they are decimal signs.
+fn parse_line(line: &str) -> Option<(Option<String>, Vec<f32>)> {
+    let spaces = |c: char| c.is_whitespace() || c == ';';
+    // A name in quotes may be made of numbers.
+    if let Some((file, rest)) = line.strip_prefix('"').and_then(|line| line.split_once('"'))
+        && !file.is_empty()
+        && let Some((None, numbers)) =
+            parse_line(rest.trim_start_matches(|c| spaces(c) || c == ','))
+    {
+        return Some((Some(file.to_owned()), numbers));
     }
-    if rest.parse::<f32>().is_ok() {
-        return (None, None);
-    }
-    (Some(rest.to_owned()), parse_numbers(values))
+    take_numbers(line, spaces).or_else(|| take_numbers(line, |c| spaces(c) || c == ','))
 }
 
-fn parse_numbers(words: Vec<&str>) -> Option<Vec<f32>> {
-    words.into_iter().map(|word| word.parse().ok()).collect()
+fn take_numbers(
+    line: &str,
+    parts: impl Fn(char) -> bool + Copy,
+) -> Option<(Option<String>, Vec<f32>)> {
+    let mut rest = line;
+    let mut numbers = Vec::new();
+    // The name before each count of numbers from the end.
+    let mut before = vec![line];
+    loop {
+        let end = rest.trim_end_matches(|c| parts(c) || c == ',');
+        let start = end.rfind(parts).map_or(0, |at| {
+            at + end[at..].chars().next().map_or(1, char::len_utf8)
+        });
+        let Some(number) = parse_number(&end[start..]) else {
+            break;
+        };
+        numbers.insert(0, number);
+        rest = end[..start].trim_end_matches(|c| parts(c) || c == ',');
+        before.push(rest);
+        if rest.is_empty() {
+            return (numbers.len() <= 4).then_some((None, numbers));
+        }
+    }
+    // Six or four numbers (a light and its colour or brightness) only after the name of an image:
+    // other names may end with numbers.
+    let named = |&count: &usize| format_of_extension(unquoted(before[count].trim())).is_some();
+    let count = [6, 4]
+        .into_iter()
+        .filter(|&count| count <= numbers.len())
+        .find(named)
+        .or_else(|| (numbers.len() >= 3).then_some(3))?;
+    let file = unquoted(before[count].trim()).to_owned();
+    Some((Some(file), numbers.split_off(numbers.len() - count)))
+}
+
+/// A number with a decimal point or a decimal comma.
+pub(crate) fn parse_number(word: &str) -> Option<f32> {
+    let word = unquoted(word).trim();
+    let word = word.replace('\u{2212}', "-");
+    let commas = word.matches(',').count();
+    if commas == 1 && !word.contains('.') {
+        return word.replace(',', ".").parse().ok();
+    }
+    word.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(text: &str) -> Option<(Option<String>, Vec<f32>)> {
+        parse_line(text)
+    }
+
+    #[test]
+    fn names_and_numbers_part() {
+        let light = vec![-0.25, 0.5, 0.75];
+        for text in [
+            "a b.png -0.25 0.5 0.75",
+            "\"a b.png\"\t-0.25   0.5\t0.75",
+            "a b.png;-0,25;0,5;0,75",
+            "a b.png -0,25 0,5 0,75",
+            "a b.png,-0.25,0.5,0.75",
+            "a b.png, -0.25, 0.5, 0.75",
+            "'a b.png' \u{2212}0.25 .5 7.5e-1;",
+        ] {
+            assert_eq!(
+                line(text),
+                Some((Some("a b.png".into()), light.clone())),
+                "{text}"
+            );
+        }
+        for text in [
+            "-0.25 0.5 0.75",
+            "-0,25;0,5;0,75",
+            "-0.25,0.5,0.75",
+            "-0,25 0,5 0,75",
+        ] {
+            assert_eq!(line(text), Some((None, light.clone())), "{text}");
+        }
+        assert_eq!(
+            line("IMG 12 -0.25 0.5 0.75"),
+            Some((Some("IMG 12".into()), light))
+        );
+        let colours = line("a 1.png 0 0 1 2 3 4").unwrap();
+        assert_eq!(
+            colours,
+            (Some("a 1.png".into()), vec![0.0, 0.0, 1.0, 2.0, 3.0, 4.0])
+        );
+        assert_eq!(line("12"), Some((None, vec![12.0])));
+        for text in ["x y z", "a b c d", "a.png 0 1", "1 2 3 4 5"] {
+            assert_eq!(line(text), None, "{text}");
+        }
+    }
 }

@@ -1,7 +1,5 @@
 //! Single photographs as files and as small pictures.
 use crate::IoError;
-use crate::maps::png;
-use image::{DynamicImage, ImageBuffer};
 use normalight_core::{Samples, StackImage, Transfer};
 
 /// Samples per side that stand for one pixel of a thumbnail: enough against flicker, and as quick
@@ -65,34 +63,46 @@ fn linear(image: &StackImage, pixel: usize, channel: usize) -> f32 {
     }
 }
 
-/// A photograph as PNG with the samples it has, 8 or 16 bit, grey or RGB.
+/// A photograph as PNG with the samples it has, 8 or 16 bit, grey or RGB; a chunk says how they
+/// relate to light (gAMA 1 for linear samples, sRGB else).
 ///
 /// # Errors
 /// [`IoError::Encode`] for floating-point samples, which PNG cannot hold, and for an image whose
 /// samples do not fit its size.
 pub fn photograph_png(image: &StackImage) -> Result<Vec<u8>, IoError> {
-    let (width, height) = (image.width as u32, image.height as u32);
-    let stored = match (&image.samples, image.channels) {
-        (Samples::U8(codes), 1) => {
-            ImageBuffer::from_raw(width, height, codes.clone()).map(DynamicImage::ImageLuma8)
+    let failed = |reason: String| IoError::Encode {
+        name: "photograph",
+        reason,
+    };
+    let (bits, data) = match &image.samples {
+        Samples::U8(codes) => (png::BitDepth::Eight, codes.clone()),
+        Samples::U16(codes) => {
+            let bytes = codes.iter().flat_map(|code| code.to_be_bytes());
+            (png::BitDepth::Sixteen, bytes.collect())
         }
-        (Samples::U8(codes), _) => {
-            ImageBuffer::from_raw(width, height, codes.clone()).map(DynamicImage::ImageRgb8)
-        }
-        (Samples::U16(codes), 1) => {
-            ImageBuffer::from_raw(width, height, codes.clone()).map(DynamicImage::ImageLuma16)
-        }
-        (Samples::U16(codes), _) => {
-            ImageBuffer::from_raw(width, height, codes.clone()).map(DynamicImage::ImageRgb16)
-        }
-        (Samples::F32(_), _) => {
-            return Err(IoError::Encode {
-                name: "photograph",
-                reason: "PNG holds no floating-point samples".to_owned(),
-            });
+        Samples::F32(_) => {
+            return Err(failed("PNG holds no floating-point samples".to_owned()));
         }
     };
-    png("photograph", stored)
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
+    encoder.set_depth(bits);
+    encoder.set_color(match image.channels {
+        1 => png::ColorType::Grayscale,
+        _ => png::ColorType::Rgb,
+    });
+    match image.transfer {
+        Transfer::Linear => encoder.set_source_gamma(png::ScaledFloat::new(1.0)),
+        Transfer::Srgb => encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual),
+    }
+    let mut writer = encoder
+        .write_header()
+        .map_err(|error| failed(error.to_string()))?;
+    writer
+        .write_image_data(&data)
+        .map_err(|error| failed(error.to_string()))?;
+    writer.finish().map_err(|error| failed(error.to_string()))?;
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -1,180 +1,221 @@
-use crate::IoError;
-use crate::format::{base_name, format_of_extension, split_extension};
+//! Which of some files are the photographs.
+mod kinds;
+mod list;
+
+pub(crate) use kinds::is_helper;
+pub use list::find_list;
+
+use crate::format::{base_name, split_extension};
+use crate::input_plan::{LeftOut, LeftOutReason, Order};
+use crate::names::{NameKey, NameMatch, find, folded, stem};
+use crate::{IoError, Notice};
+use kinds::{Words, left_out_reason};
+use std::collections::BTreeMap;
 
 /// Which of some files are the images, in which order, and which is the mask.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct StackPlan {
     /// Positions of the images among the names, in the order of the stack.
     pub images: Vec<usize>,
     /// Position of the mask among the names.
     pub mask: Option<usize>,
+    /// What decided about images and order.
+    pub order: Order,
+    /// The other files that a person might miss, and why they are not among the images.
+    pub left_out: Vec<LeftOut>,
+    /// Whether the files lie as those of a benchmark, whose samples are linear.
+    pub benchmark: bool,
+    /// What is doubtful.
+    pub notices: Vec<Notice>,
 }
-
-/// Words in the name of a picture that is a result or an aid, not a photograph of the stack.
-const NOT_PHOTOGRAPHS: [&str; 4] = ["normal", "albedo", "depth", "ambient"];
 
 /// Decides from names alone which files are the images and which is the mask.
 ///
 /// A list (its name and its text, see [`find_list`]) decides images and order: one name on each
 /// line, optionally a count before and the mask after them; folders before a name and words after it
-/// are ignored.
+/// are ignored, and so are case, Unicode form and, where that is clear, the extension.
 /// Without a list, the images are all files with the extension of a known image format in natural
-/// order (2 before 10), except masks (`mask` in the name) and names with `normal`, `albedo`,
-/// `depth` or `ambient`; upper and lower case are the same. Folders in `names` do not count.
+/// order (2 before 10), except masks (`mask` in the name) and names that say they are maps or
+/// aids (`normal`, `albedo`, `depth`, `roughness`, `ambient`, ...). A word that most names share
+/// says nothing. Folders in `names` do not count.
 ///
 /// # Errors
-/// A list that names a missing file, has a line that is no image name, or whose count is wrong.
+/// A list that names a missing file, has a line that is no image name, or whose count is wrong; the
+/// same shots in two formats.
 pub fn plan_stack<S: AsRef<str>>(
     names: &[S],
     list: Option<(&str, &str)>,
 ) -> Result<StackPlan, IoError> {
+    let name = |index: usize| names[index].as_ref();
     let mut candidates: Vec<usize> = (0..names.len())
-        .filter(|&index| is_visible_image(names[index].as_ref()))
+        .filter(|&index| kinds::is_visible_image(name(index)))
         .collect();
-    candidates.sort_by(|&a, &b| natord::compare(names[a].as_ref(), names[b].as_ref()));
-    let beside = best_mask(&candidates, names);
-    let Some((list_name, text)) = list else {
-        candidates.retain(|&index| {
-            let name = names[index].as_ref();
-            !is_mask(name) && !NOT_PHOTOGRAPHS.iter().any(|word| has_word(name, word))
-        });
-        return Ok(StackPlan {
-            images: candidates,
-            mask: beside,
-        });
+    candidates.sort_by(|&a, &b| natord::compare(name(a), name(b)));
+    let words = Words::of(candidates.iter().map(|&index| name(index)));
+    let beside = best_mask(&candidates, names, &words);
+    let mut plan = match list {
+        Some((list, text)) => listed(&candidates, names, &words, (list, text))?,
+        None => {
+            let (aids, images) = candidates
+                .iter()
+                .partition(|&&index| words.reason(name(index)).is_some());
+            let aids: Vec<usize> = aids;
+            let left_out = aids.iter().filter_map(|&index| {
+                let reason = words.reason(name(index))?;
+                Some(LeftOut::new(name(index), reason))
+            });
+            StackPlan {
+                left_out: left_out.collect(),
+                notices: odd_names(&images, names),
+                images,
+                ..StackPlan::default()
+            }
+        }
     };
-    let mut images = Vec::new();
-    let mut masks = Vec::new();
-    let (count, entries) = parse_list(list_name, text)?;
+    if list.is_none() {
+        check_copies(&plan.images, names)?;
+    }
+    plan.mask = plan.mask.or(beside);
+    if let Some(mask) = plan.mask {
+        plan.left_out.retain(|left| left.file != name(mask));
+    }
+    for name in names.iter().map(AsRef::as_ref) {
+        if let Some(reason) = left_out_reason(name) {
+            plan.left_out.push(LeftOut::new(name, reason));
+        }
+        let is_text = split_extension(name).1.eq_ignore_ascii_case("txt");
+        if is_text && kinds::says_rejects(name) && list.is_none_or(|(list, _)| list != name) {
+            plan.notices.push(Notice::ListIgnored {
+                list: name.to_owned(),
+            });
+        }
+    }
+    plan.benchmark =
+        kinds::is_benchmark(names) || list.is_some_and(|(_, text)| list::has_lights(text));
+    Ok(plan)
+}
+
+/// The images that a list names, in its order.
+fn listed<S: AsRef<str>>(
+    candidates: &[usize],
+    names: &[S],
+    words: &Words,
+    (list, text): (&str, &str),
+) -> Result<StackPlan, IoError> {
+    let keys: Vec<NameKey> = candidates
+        .iter()
+        .map(|&index| NameKey::new(names[index].as_ref()))
+        .collect();
+    let (count, entries) = list::parse(list, text)?;
+    let (mut images, mut masks, mut by_stem) = (Vec::new(), Vec::new(), false);
     for entry in entries {
-        let found = candidates
-            .iter()
-            .find(|&&index| base_name(names[index].as_ref()) == entry);
-        let Some(&index) = found else {
-            return Err(IoError::ListedFileMissing {
-                list: list_name.to_owned(),
-                entry: entry.to_owned(),
+        let (rule, found) = find(&NameKey::new(entry), &keys).unwrap_or((NameMatch::Full, vec![]));
+        let [key] = found[..] else {
+            return Err(match found.len() {
+                0 => IoError::ListedFileMissing {
+                    list: list.to_owned(),
+                    entry: base_name(entry).to_owned(),
+                },
+                several => IoError::ListFormat {
+                    list: list.to_owned(),
+                    found: format!("{entry}, which may be any of {several} files"),
+                    expected: "names with their folders".to_owned(),
+                },
             });
         };
-        let kind = if is_mask(entry) {
-            &mut masks
-        } else {
-            &mut images
-        };
-        if kind.contains(&index) {
+        by_stem |= rule == NameMatch::Stem;
+        let is_mask = words.reason(entry) == Some(LeftOutReason::Mask);
+        let kind = if is_mask { &mut masks } else { &mut images };
+        if kind.contains(&candidates[key]) {
             return Err(IoError::ListFormat {
-                list: list_name.to_owned(),
-                found: format!("{entry} twice"),
+                list: list.to_owned(),
+                found: format!("{} twice", base_name(entry)),
                 expected: "each file once".to_owned(),
             });
         }
-        kind.push(index);
+        kind.push(candidates[key]);
     }
     if let Some(count) = count
         && count != images.len()
     {
         return Err(IoError::ListFormat {
-            list: list_name.to_owned(),
+            list: list.to_owned(),
             found: format!("{} image names", images.len()),
             expected: format!("{count}, as its first line says"),
         });
     }
+    let unlisted = candidates.iter().filter(|index| !images.contains(index));
+    let left_out = unlisted.map(|&index| {
+        let name = names[index].as_ref();
+        LeftOut::new(name, words.reason(name).unwrap_or(LeftOutReason::NotListed))
+    });
+    let notice = by_stem.then(|| Notice::ListByStem {
+        list: list.to_owned(),
+    });
     Ok(StackPlan {
+        left_out: left_out.collect(),
         images,
-        mask: masks.first().copied().or(beside),
+        mask: masks.first().copied(),
+        order: Order::List(list.to_owned()),
+        notices: notice.into_iter().collect(),
+        benchmark: false,
     })
 }
 
-/// The list among some files, given a way to see a file's text: `filenames.txt`, else `names.txt`,
-/// else the first `.txt` file whose lines are all image names (after an optional count).
-///
-/// # Errors
-/// Those of `read_text` for the first two.
-pub fn find_list<S: AsRef<str>>(
-    names: &[S],
-    mut read_text: impl FnMut(usize) -> Result<String, IoError>,
-) -> Result<Option<(usize, String)>, IoError> {
-    for wanted in ["filenames.txt", "names.txt"] {
-        let found = names
-            .iter()
-            .position(|name| base_name(name.as_ref()).eq_ignore_ascii_case(wanted));
-        if let Some(index) = found {
-            return Ok(Some((index, read_text(index)?)));
-        }
+/// The same shots in two formats or depths: nobody can tell which are meant.
+fn check_copies<S: AsRef<str>>(images: &[usize], names: &[S]) -> Result<(), IoError> {
+    let mut shots: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for &index in images {
+        let name = names[index].as_ref();
+        shots.entry(folded(stem(name))).or_default().push(name);
     }
-    let mut texts: Vec<usize> = (0..names.len())
-        .filter(|&index| {
-            let (stem, extension) = split_extension(names[index].as_ref());
-            extension.eq_ignore_ascii_case("txt") && !stem.starts_with('.')
-        })
-        .collect();
-    texts.sort_by(|&a, &b| natord::compare(names[a].as_ref(), names[b].as_ref()));
-    for index in texts {
-        // Any other text may lie here: one that cannot be read is no list.
-        let Ok(text) = read_text(index) else { continue };
-        if parse_list("", &text).is_ok_and(|(_, entries)| !entries.is_empty()) {
-            return Ok(Some((index, text)));
-        }
+    let twice: Vec<&Vec<&str>> = shots.values().filter(|shot| shot.len() > 1).collect();
+    // One picture in each of many folders may well be called the same.
+    if shots.len() < 3 || 2 * twice.len() < shots.len() {
+        return Ok(());
     }
-    Ok(None)
+    Err(IoError::Copies {
+        first: twice[0][0].to_owned(),
+        second: twice[0][1].to_owned(),
+        shots: twice.len(),
+    })
 }
 
-/// The count and the names of a list file.
-fn parse_list<'text>(
-    list: &str,
-    text: &'text str,
-) -> Result<(Option<usize>, Vec<&'text str>), IoError> {
-    let mut count = None;
-    let mut entries = Vec::new();
-    // Editors on Windows begin text files with a byte order mark.
-    let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-    for line in lines.filter(|line| !line.is_empty()) {
-        // Names may hold spaces, so the whole line comes first; other words are lights.
-        let first_word = line.split_whitespace().next().unwrap_or(line);
-        let name = [line, first_word]
-            .into_iter()
-            .find(|name| format_of_extension(name).is_some());
-        match (name, line.parse()) {
-            (Some(name), _) => entries.push(base_name(name)),
-            (None, Ok(number)) if entries.is_empty() && count.is_none() => count = Some(number),
-            _ => {
-                return Err(IoError::ListFormat {
-                    list: list.to_owned(),
-                    found: format!("the line {:?}", line.chars().take(80).collect::<String>()),
-                    expected: "the name of an image".to_owned(),
-                });
-            }
-        }
+/// Photographs named unlike nearly all others.
+fn odd_names<S: AsRef<str>>(images: &[usize], names: &[S]) -> Vec<Notice> {
+    let pattern = |index: usize| -> String {
+        let stem = folded(stem(names[index].as_ref()));
+        stem.chars().filter(|c| c.is_alphabetic()).collect()
+    };
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for &index in images {
+        *counts.entry(pattern(index)).or_default() += 1;
     }
-    Ok((count, entries))
+    let usual = counts.values().max().copied().unwrap_or(0);
+    if 5 * usual < 4 * images.len() {
+        return Vec::new();
+    }
+    let odd = images
+        .iter()
+        .filter(|&&index| counts[&pattern(index)] < usual);
+    odd.map(|&index| Notice::OddName {
+        file: names[index].as_ref().to_owned(),
+    })
+    .collect()
 }
 
 /// The mask among the candidates: a file called just `mask`, else the first with it in its name.
-fn best_mask<S: AsRef<str>>(candidates: &[usize], names: &[S]) -> Option<usize> {
-    let masks = || {
-        let named = |&&index: &&usize| is_mask(names[index].as_ref());
-        candidates.iter().filter(named).copied()
-    };
-    masks()
-        .find(|&index| {
-            split_extension(names[index].as_ref())
-                .0
-                .eq_ignore_ascii_case("mask")
-        })
-        .or_else(|| masks().next())
-}
-
-/// Images whose name does not begin with a dot, as the helper files of some systems do.
-fn is_visible_image(name: &str) -> bool {
-    format_of_extension(name).is_some() && !base_name(name).starts_with('.')
-}
-
-fn is_mask(name: &str) -> bool {
-    has_word(name, "mask")
-}
-
-fn has_word(name: &str, word: &str) -> bool {
-    split_extension(name).0.to_ascii_lowercase().contains(word)
+fn best_mask<S: AsRef<str>>(candidates: &[usize], names: &[S], words: &Words) -> Option<usize> {
+    let masks: Vec<usize> = candidates
+        .iter()
+        .copied()
+        .filter(|&index| words.reason(names[index].as_ref()) == Some(LeftOutReason::Mask))
+        .collect();
+    let plain = masks.iter().find(|&&index| {
+        let stem = split_extension(names[index].as_ref()).0;
+        stem.eq_ignore_ascii_case("mask")
+    });
+    plain.or(masks.first()).copied()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use crate::{ColorMode, IoError, NormalFormat};
+use crate::{ColorMode, InputPlan, IoError, NormalFormat};
 use normalight_core::{Decoding, Quality};
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +18,8 @@ pub struct Report {
     pub mask: String,
     /// How samples were taken.
     pub color: ColorMode,
+    /// What was decided about the files, and what is doubtful.
+    pub plan: InputPlan,
     /// Where the lights came from, in words.
     pub lights_from: String,
     /// What computed the result.

@@ -69,6 +69,7 @@ impl RunDescription<'_> {
             height: input.stack.height(),
             mask: input.mask_label().to_owned(),
             color: self.reading.color,
+            plan: input.plan.clone(),
             lights_from: lights_label(given, refit),
             device: used,
             weights: WeightHashes::new(self.weights, given.is_some()),

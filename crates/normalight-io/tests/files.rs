@@ -1,8 +1,7 @@
 //! Folders and files on a disk.
 mod common;
 
-use common::{encode, file, mask_png, rgb8, three};
-use image::ImageFormat;
+use common::{file, mask_png, shaded_png, three};
 use normalight_core::MaskSource;
 use normalight_io::{IoError, OutputFolder, ReadOptions, read_paths, write_files};
 
@@ -77,11 +76,10 @@ fn a_prepared_folder_without_results_goes_again() {
 #[test]
 fn only_picked_images_are_read() {
     let place = tempfile::tempdir().unwrap();
-    let good = encode(&rgb8(16, 12), ImageFormat::Png);
     let files: Vec<(String, Vec<u8>)> = (0..10)
         .map(|index| {
             let bytes = if index % 3 == 0 && index < 9 {
-                good.clone()
+                shaded_png(16, 12, index / 3)
             } else {
                 vec![]
             };
@@ -103,9 +101,8 @@ fn only_picked_images_are_read() {
 #[test]
 fn lights_beside_images() {
     let place = tempfile::tempdir().unwrap();
-    let bytes = encode(&rgb8(16, 12), ImageFormat::Png);
     let images: Vec<_> = (0..8)
-        .map(|k| (format!("{k}.png"), bytes.clone()))
+        .map(|k| (format!("{k}.png"), shaded_png(16, 12, k)))
         .collect();
     write_files(place.path(), &images).unwrap();
     let options = ReadOptions {

@@ -4,7 +4,7 @@ use normalight_core::{
     NormalMap, Quality, Samples, StackImage, Transfer, Vec3,
 };
 use normalight_io::{
-    ColorMode, IoError, NormalFormat, OutputName, ReadOptions, Report, ReportSettings,
+    ColorMode, InputPlan, IoError, NormalFormat, OutputName, ReadOptions, Report, ReportSettings,
     RunDescription, StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, decode_mask,
     mask_png, normals_npy, normals_png, normals_rgba, report_json, result_files,
 };
@@ -106,6 +106,7 @@ fn reports_are_json() {
         mask: "mask.png".into(),
         color: ColorMode::Linear,
         device: "cpu".into(),
+        plan: InputPlan::default(),
         lights_from: "network".into(),
         weights: WeightHashes {
             light: Some("ab".into()),
@@ -159,6 +160,7 @@ fn reports_say_what_was_done_with_given_lights() {
         mask_source: MaskSource::WholeFrame,
         file_names: Vec::new(),
         picked: Vec::new(),
+        plan: InputPlan::default(),
     };
     let reading = ReadOptions::default();
     let mut run = RunDescription {

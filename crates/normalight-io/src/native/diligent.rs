@@ -3,8 +3,8 @@ use super::files::{display, file_name, read_error, read_file};
 use super::matlab::find_array;
 use super::read::read_paths;
 use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
-use crate::stack::read_text;
-use crate::{IoError, ReadOptions, StackInput};
+use crate::text::read_text;
+use crate::{ColorMode, IoError, ReadOptions, StackInput};
 use normalight_core::{Light, NormalMap, Vec3};
 use std::path::{Path, PathBuf};
 
@@ -78,6 +78,7 @@ pub fn read_diligent_object(
 ) -> Result<DiligentObject, IoError> {
     let options = ReadOptions {
         images,
+        color: ColorMode::Linear,
         ..ReadOptions::default()
     };
     let input = read_paths(&[folder.to_owned()], &options)?;

@@ -1,15 +1,15 @@
 //! DiLiGenT's intensities, which stand in a file of their own.
 use crate::IoError;
 use crate::light_file::LightFile;
-use crate::light_text::{Row, check_count, is_intensity, parse_lines};
+use crate::light_text::{Row, check_count, is_intensity, parse_rows};
 
 impl LightFile {
     /// Takes the intensities per colour channel from a second file with as many lines: three
     /// numbers on each, or one for grey.
     pub(crate) fn with_intensities(mut self, name: &str, bytes: &[u8]) -> Result<Self, IoError> {
-        let lines = parse_lines(name, bytes)?;
+        let lines = parse_rows(name, bytes)?.rows;
         check_count(name, lines.len(), self.rows.len())?;
-        for ((_, light), line) in self.rows.iter_mut().zip(&lines) {
+        for (light, line) in self.rows.iter_mut().zip(&lines) {
             light.intensity = intensity(name, line)?;
         }
         Ok(self)

@@ -28,7 +28,7 @@ pub use writer::{PublishedPart, PublishedWriter};
 use super::files::{display, read_file};
 use crate::IoError;
 use crate::limits::MAX_TEXT_BYTES;
-use crate::stack::read_text;
+use crate::text::read_text;
 use std::path::{Path, PathBuf};
 
 const TRAIN_LIST: &str = "train_mtrl.txt";

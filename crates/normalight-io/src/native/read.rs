@@ -1,10 +1,12 @@
 use super::files::{display, file_name, read_error, read_file};
+use crate::assemble::assemble;
 use crate::format::{READ_FORMATS, format_of_extension, not_an_image};
+use crate::light_file::GivenLights;
 use crate::light_file::LightFile;
 use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
 use crate::plan::{find_list, plan_stack};
-use crate::stack::{assemble, read_text};
-use crate::{IoError, ReadOptions, StackInput};
+use crate::text::read_text;
+use crate::{IoError, LightAxes, ReadOptions, StackInput};
 use normalight_core::Light;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,8 +67,41 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
         .as_ref()
         .map(|(path, text)| (path.as_str(), text.as_str()));
     let plan = plan_stack(&names, list)?;
+    if plan.images.is_empty() && list.is_none() {
+        look_below(folder)?;
+    }
     assemble(&display(folder), &names, plan, options, |index| {
         read_file(&paths[index], MAX_FILE_BYTES)
+    })
+}
+
+/// Where photographs lie one folder down, which is how projects of RTI programs are laid out.
+fn look_below(folder: &Path) -> Result<(), IoError> {
+    let mut below = Vec::new();
+    let failed = |reason| read_error(folder, reason);
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let Ok(entries) = fs::read_dir(&path) else {
+            continue;
+        };
+        let names: Vec<String> = entries
+            .flatten()
+            .filter(|entry| entry.path().is_file())
+            .map(|entry| file_name(&entry.path()))
+            .collect();
+        // A list there may be wrong: that is said when the folder is given.
+        let photographs = plan_stack(&names, None).map_or(0, |plan| plan.images.len());
+        if photographs > 0 {
+            below.push(format!("{photographs} in {}", file_name(&path)));
+        }
+    }
+    if below.is_empty() {
+        return Ok(());
+    }
+    below.sort();
+    Err(IoError::PhotographsBelow {
+        name: display(folder),
+        below: below.join(", "),
     })
 }
 
@@ -76,7 +111,7 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
 /// # Errors
 /// [`IoError::Read`] and those of [`read_lights`](crate::read_lights).
 pub fn read_lights_path(path: &Path, file_names: &[String]) -> Result<Vec<Light>, IoError> {
-    open_lights(path)?.for_images(file_names)
+    Ok(open_lights(path)?.for_images(file_names)?.lights)
 }
 
 impl StackInput {
@@ -86,7 +121,16 @@ impl StackInput {
     /// # Errors
     /// Those of [`read_lights_path`].
     pub fn read_lights_path(&self, path: &Path) -> Result<Vec<Light>, IoError> {
-        open_lights(path)?.for_input(self)
+        Ok(self.given_lights_path(path, LightAxes::default())?.lights)
+    }
+
+    /// As [`StackInput::read_lights_path`], for a file with these axes, and with what there is to
+    /// say.
+    ///
+    /// # Errors
+    /// Those of [`read_lights_path`].
+    pub fn given_lights_path(&self, path: &Path, axes: LightAxes) -> Result<GivenLights, IoError> {
+        open_lights(path)?.with_axes(axes).for_input(self)
     }
 }
 

@@ -46,12 +46,21 @@ pub fn file(name: &str, bytes: Vec<u8>) -> NamedBytes {
     }
 }
 
-/// Three PNG photographs of the given size.
+/// Three PNG photographs of the given size, no two alike.
 pub fn three(width: u32, height: u32) -> Vec<NamedBytes> {
-    let bytes = encode(&rgb8(width, height), ImageFormat::Png);
-    ["1.png", "2.png", "10.png"]
-        .map(|name| file(name, bytes.clone()))
+    [("1.png", 0), ("2.png", 1), ("10.png", 2)]
+        .map(|(name, turn)| file(name, shaded_png(width, height, turn)))
         .to_vec()
+}
+
+/// The picture of [`rgb8`] as PNG, each `turn` brightened towards another side.
+pub fn shaded_png(width: u32, height: u32, turn: u32) -> Vec<u8> {
+    let mut picture = rgb8(width, height).into_rgb8();
+    for (x, y, pixel) in picture.enumerate_pixels_mut() {
+        let shade = 7 * (turn * x + turn * turn * y) as u8 % 50;
+        pixel.0 = pixel.0.map(|code| code + shade);
+    }
+    encode(&DynamicImage::ImageRgb8(picture), ImageFormat::Png)
 }
 
 /// A mask of the given pixels.

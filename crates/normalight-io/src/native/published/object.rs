@@ -1,9 +1,10 @@
 use super::{PublishedEntry, light_list, read_small};
-use crate::decode::{ColorMode, decode_image};
+use crate::assemble::assemble;
+use crate::color::ColorMode;
+use crate::decode::decode_image;
 use crate::limits::MAX_FILE_BYTES;
 use crate::native::files::{display, read_file};
 use crate::plan::StackPlan;
-use crate::stack::assemble;
 use crate::{IoError, MaskChoice, ReadOptions};
 use normalight_core::{ImageStack, Light, Mask, NormalMap, Samples, StackImage, Vec3};
 use std::path::Path;
@@ -34,7 +35,8 @@ pub(super) fn read(images: &Path, entry: &PublishedEntry) -> Result<PublishedObj
         .collect();
     let plan = StackPlan {
         images: (0..names.len()).collect(),
-        mask: None,
+        benchmark: true,
+        ..StackPlan::default()
     };
     let options = ReadOptions {
         color: ColorMode::Linear,

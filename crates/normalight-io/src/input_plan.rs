@@ -1,0 +1,209 @@
+//! What was decided about the files of a stack, to be said before and after anything is computed.
+use crate::names::NameMatch;
+use crate::notice::{Notice, some_names};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What was decided about the files of a stack and why: for people ([`fmt::Display`]: a few lines,
+/// with `{:#}` every file), for `report.json` and for the page.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+pub struct InputPlan {
+    /// The photographs that were read, in order.
+    pub photographs: Vec<String>,
+    /// What decided about them and their order.
+    pub order: Order,
+    /// Files that are not among them.
+    pub left_out: Vec<LeftOut>,
+    /// Where the mask came from, in words or by its file name.
+    pub mask: String,
+    /// How samples were taken.
+    pub color: ColorDecision,
+    /// How given lights were matched; `None` when there were none.
+    pub lights: Option<LightsDecision>,
+    /// What is doubtful.
+    pub notices: Vec<Notice>,
+}
+
+/// What decided about the photographs and their order.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// Their names: 2 before 10.
+    #[default]
+    Names,
+    /// A list.
+    List(String),
+}
+
+/// A file that is not among the photographs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+pub struct LeftOut {
+    /// The file.
+    pub file: String,
+    /// Why.
+    pub reason: LeftOutReason,
+}
+
+impl LeftOut {
+    pub(crate) fn new(file: &str, reason: LeftOutReason) -> Self {
+        Self {
+            file: file.to_owned(),
+            reason,
+        }
+    }
+}
+
+/// Why a file is not among the photographs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum LeftOutReason {
+    /// A mask, and not the one that is used.
+    Mask,
+    /// A picture without lamp.
+    Ambient,
+    /// A map: a result of this or another program.
+    Map {
+        /// The word in its name that says so.
+        word: String,
+    },
+    /// The list does not name it.
+    NotListed,
+    /// It has another size and another name than the photographs.
+    OtherSize {
+        /// Its width and height.
+        size: [usize; 2],
+    },
+    /// A photograph in a format that is not read.
+    UnreadFormat {
+        /// The format.
+        format: String,
+    },
+    /// No image at all.
+    NotAnImage,
+    /// A helper file of an operating system.
+    System,
+}
+
+impl fmt::Display for LeftOutReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mask => f.write_str("another mask"),
+            Self::Ambient => f.write_str("without lamp, by its name"),
+            Self::Map { word } => write!(f, "a map, by the word {word:?} in its name"),
+            Self::NotListed => f.write_str("not in the list"),
+            Self::OtherSize {
+                size: [width, height],
+            } => {
+                write!(f, "another size: {width}x{height}")
+            }
+            Self::UnreadFormat { format } => {
+                write!(
+                    f,
+                    "{format}, which is not read; export it as TIFF or PNG of 16 bits"
+                )
+            }
+            Self::NotAnImage => f.write_str("no image"),
+            Self::System => f.write_str("a helper file of the system"),
+        }
+    }
+}
+
+/// How samples were taken to relate to light.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+pub struct ColorDecision {
+    /// `linear`, `sRGB`, or what the files say of themselves.
+    pub taken: String,
+    /// Why.
+    pub because: ColorReason,
+}
+
+/// Why samples were taken as they were.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+pub enum ColorReason {
+    /// The caller said so.
+    Asked,
+    /// The files say so: a profile, a chunk or their format.
+    #[default]
+    Stated,
+    /// The files lie as those of a benchmark.
+    Benchmark,
+    /// The shading fits better so.
+    Shading,
+    /// Nothing says anything: what such files usually are.
+    Usual,
+}
+
+impl fmt::Display for ColorReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Asked => "as asked",
+            Self::Stated => "as the files say",
+            Self::Benchmark => "files of a benchmark",
+            Self::Shading => "the shading fits better so",
+            Self::Usual => "usual for such files",
+        })
+    }
+}
+
+/// How given lights were matched with the photographs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
+pub struct LightsDecision {
+    /// The light file.
+    pub file: String,
+    /// The least sure rule that matched a light.
+    pub matched: NameMatch,
+}
+
+impl fmt::Display for InputPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all = f.alternate();
+        let names = match (all, &self.photographs[..]) {
+            (false, [first, .., last]) => format!("{first} to {last}"),
+            (_, names) => names.join(", "),
+        };
+        let order = match &self.order {
+            Order::Names => "by name".to_owned(),
+            Order::List(list) => format!("as {list} lists them"),
+        };
+        writeln!(
+            f,
+            "photographs: {} ({order}): {names}",
+            self.photographs.len()
+        )?;
+        writeln!(f, "mask: {}", self.mask)?;
+        writeln!(f, "colour: {} ({})", self.color.taken, self.color.because)?;
+        if let Some(LightsDecision { file, matched }) = &self.lights {
+            writeln!(f, "lights: {file}, matched by {matched}")?;
+        }
+        if all {
+            for LeftOut { file, reason } in &self.left_out {
+                writeln!(f, "left out: {file} ({reason})")?;
+            }
+        } else {
+            // Helper files are nobody's concern.
+            let told = |left: &&LeftOut| left.reason != LeftOutReason::System;
+            let files: Vec<String> = self
+                .left_out
+                .iter()
+                .filter(told)
+                .map(|LeftOut { file, reason }| format!("{file} ({reason})"))
+                .collect();
+            if !files.is_empty() {
+                writeln!(f, "left out: {}", some_names(&files))?;
+            }
+        }
+        for notice in &self.notices {
+            writeln!(f, "notice: {notice}")?;
+        }
+        Ok(())
+    }
+}

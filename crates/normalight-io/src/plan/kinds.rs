@@ -1,0 +1,151 @@
+//! What a file's name says about it.
+use crate::format::{base_name, format_of_extension, is_foreign, split_extension};
+use crate::input_plan::LeftOutReason;
+use crate::names::{folded, stem};
+
+/// Words for masks and for pictures that are results or aids, anywhere in a name.
+const MASKS: &[&str] = &["mask", "silhouette"];
+const AMBIENT: &[&str] = &["ambient"];
+const MAPS: &[&str] = &[
+    "normal",
+    "albedo",
+    "depth",
+    "basecolor",
+    "base color",
+    "base_color",
+    "roughness",
+    "metallic",
+    "metalness",
+    "displacement",
+    "curvature",
+    "occlusion",
+    "specular",
+    "diffuse",
+    "confidence",
+];
+/// Words that stand in other words too: only alone, between signs or digits.
+const SHORT_MAPS: &[&str] = &[
+    "error",
+    "height",
+    "heightmap",
+    "ao",
+    "nrm",
+    "rough",
+    "metal",
+    "opacity",
+];
+
+/// Words of texts that list what shall not be used.
+const REJECTS: &[&str] = &[
+    "reject", "exclude", "skip", "ignore", "omit", "delete", "cull", "outlier", "blur", "unused",
+    "remove", "trash", "discard", "failed",
+];
+
+/// The words that tell the files of one place apart.
+pub(super) struct Words {
+    /// Words that most names have: they say nothing.
+    shared: Vec<&'static str>,
+}
+
+impl Words {
+    pub(super) fn of<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+        let stems: Vec<String> = names.map(|name| folded(stem(name))).collect();
+        let all = [MASKS, AMBIENT, MAPS, SHORT_MAPS].into_iter().flatten();
+        let shared = all.copied().filter(|word| {
+            let count = stems.iter().filter(|stem| has_word(stem, word)).count();
+            // Among a few files a majority is soon reached by masks and maps.
+            2 * count > stems.len() && count >= 3
+        });
+        Self {
+            shared: shared.collect(),
+        }
+    }
+
+    /// Why a picture is no photograph.
+    pub(super) fn reason(&self, name: &str) -> Option<LeftOutReason> {
+        let stem = folded(stem(base_name(name)));
+        let has = |words: &[&'static str]| {
+            let told = |word: &&&'static str| !self.shared.contains(*word) || stem == ***word;
+            words
+                .iter()
+                .filter(told)
+                .find(|word| has_word(&stem, word))
+                .copied()
+        };
+        if has(MASKS).is_some() {
+            return Some(LeftOutReason::Mask);
+        }
+        if has(AMBIENT).is_some() {
+            return Some(LeftOutReason::Ambient);
+        }
+        let word = has(MAPS).or_else(|| has(SHORT_MAPS))?;
+        Some(LeftOutReason::Map {
+            word: word.to_owned(),
+        })
+    }
+}
+
+fn has_word(stem: &str, word: &str) -> bool {
+    if !SHORT_MAPS.contains(&word) {
+        return stem.contains(word);
+    }
+    stem.split(|c: char| !c.is_alphabetic())
+        .any(|part| part == word)
+}
+
+/// Images that are no helper files of a system.
+pub(super) fn is_visible_image(name: &str) -> bool {
+    format_of_extension(name).is_some() && !is_helper(name)
+}
+
+/// Files that operating systems and programs leave beside those of people.
+pub(crate) fn is_helper(name: &str) -> bool {
+    let base = base_name(name);
+    let known = ["thumbs.db", "desktop.ini", "icon\r"];
+    base.starts_with('.')
+        || name.split(['/', '\\']).any(|part| part == "__MACOSX")
+        || known.iter().any(|known| base.eq_ignore_ascii_case(known))
+        || split_extension(name).1.eq_ignore_ascii_case("info")
+}
+
+/// Whether a text's name says that it lists what shall not be used.
+pub(super) fn says_rejects(name: &str) -> bool {
+    let stem = folded(split_extension(name).0);
+    let mut words = stem.split(|c: char| !c.is_alphabetic());
+    // "bad" is a word, "badger" another; "rejects" and "excluded" are of one kind.
+    words.any(|word| word == "bad" || REJECTS.iter().any(|reject| word.starts_with(reject)))
+}
+
+/// Why a file that is no image of a known format is left out; `None` for texts, which may be of
+/// use, and for images.
+pub(super) fn left_out_reason(name: &str) -> Option<LeftOutReason> {
+    if is_helper(name) {
+        return Some(LeftOutReason::System);
+    }
+    if !is_foreign(name) {
+        return None;
+    }
+    let extension = split_extension(name).1.to_ascii_lowercase();
+    Some(match crate::format::unread_format(&extension) {
+        Some(format) => LeftOutReason::UnreadFormat {
+            format: format.to_owned(),
+        },
+        None => LeftOutReason::NotAnImage,
+    })
+}
+
+/// Whether the files lie as those of DiLiGenT or of the sets that are published like it: then
+/// their samples are linear, whatever their format says.
+pub(super) fn is_benchmark<S: AsRef<str>>(names: &[S]) -> bool {
+    let marks = [
+        "filenames.txt",
+        "light_directions.txt",
+        "light_intensities.txt",
+        "normal_gt.mat",
+    ];
+    let has = |mark: &&str| {
+        let is = |name: &S| base_name(name.as_ref()).eq_ignore_ascii_case(mark);
+        names.iter().any(is)
+    };
+    marks.iter().filter(|mark| has(mark)).count() >= 2
+}

@@ -1,0 +1,191 @@
+//! Folders as people and their programs leave them.
+mod common;
+
+use common::{file, mask_png, shaded_png, three};
+use normalight_core::MaskSource;
+use normalight_io::{
+    IoError, LeftOutReason, NamedBytes, Notice, Order, ReadOptions, StackInput, read_paths,
+    read_stack, write_files,
+};
+
+fn read(files: Vec<NamedBytes>) -> Result<StackInput, IoError> {
+    read_stack(files, &ReadOptions::default())
+}
+
+fn shots(name: impl Fn(u32) -> String) -> Vec<NamedBytes> {
+    (1..=5)
+        .map(|k| file(&name(k), shaded_png(16, 12, k)))
+        .collect()
+}
+
+fn junk(name: &str) -> NamedBytes {
+    file(name, b"nothing of use".to_vec())
+}
+
+#[test]
+fn maps_of_other_programs_are_left_out_and_named() {
+    let mut files = shots(|k| format!("L ({k}).png"));
+    let maps = [
+        "baseColor.png",
+        "roughness.png",
+        "metallic.png",
+        "error.png",
+        "Normal.png",
+        "L_height.png",
+    ];
+    files.extend(maps.map(|name| file(name, shaded_png(16, 12, 9))));
+    files.push(junk("shot.HEIC"));
+    files.push(junk("IMG_1.NEF"));
+    let input = read(files).unwrap();
+    assert_eq!(input.file_names.len(), 5);
+    let left_out = |name: &str| {
+        input
+            .plan
+            .left_out
+            .iter()
+            .find(|left| left.file == name)
+            .unwrap()
+    };
+    for map in maps {
+        assert!(
+            matches!(left_out(map).reason, LeftOutReason::Map { .. }),
+            "{map}"
+        );
+    }
+    assert!(
+        matches!(&left_out("shot.HEIC").reason, LeftOutReason::UnreadFormat { format } if format == "HEIC")
+    );
+    assert!(matches!(
+        &left_out("IMG_1.NEF").reason,
+        LeftOutReason::UnreadFormat { .. }
+    ));
+    let said = input.plan.to_string();
+    assert!(
+        said.contains("baseColor.png") && said.contains("photographs: 5"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_word_that_all_names_share_says_nothing() {
+    let mut files = shots(|k| format!("Funeral_mask_{k}.png"));
+    assert_eq!(read(files.clone()).unwrap().file_names.len(), 5);
+    files.push(file("mask.png", mask_png(16, 12, |x, _| x > 3)));
+    let input = read(files).unwrap();
+    assert_eq!(input.file_names.len(), 5);
+    assert_eq!(input.mask_source, MaskSource::File("mask.png".into()));
+    let normals = shots(|k| format!("normal light {k}.png"));
+    assert_eq!(read(normals).unwrap().file_names.len(), 5);
+}
+
+#[test]
+fn helper_files_are_no_photographs() {
+    let mut files = shots(|k| format!("vase/IMG_{k}.png"));
+    for name in [
+        "vase/Thumbs.db",
+        "vase/desktop.ini",
+        "vase/.DS_Store",
+        "vase/._IMG_1.png",
+        "__MACOSX/vase/IMG_1.png",
+        "vase/vase.info",
+    ] {
+        files.push(junk(name));
+    }
+    let input = read(files.clone()).unwrap();
+    assert_eq!(input.file_names.len(), 5);
+    assert_eq!(input.plan.left_out.len(), 6);
+    assert!(
+        input
+            .plan
+            .left_out
+            .iter()
+            .all(|left| left.reason == LeftOutReason::System)
+    );
+    assert!(
+        !input.plan.to_string().contains("Thumbs")
+            && format!("{:#}", input.plan).contains("Thumbs")
+    );
+    let error = read(files[5..].to_vec()).unwrap_err();
+    assert!(
+        matches!(error, IoError::TooFewImages { found: 0, .. }),
+        "{error}"
+    );
+}
+
+#[test]
+fn lists_in_another_spelling_and_lists_of_rejects() {
+    let mut files = shots(|k| format!("Bu\u{308}ste_{k}.PNG"));
+    files.push(file(
+        "rejected.txt",
+        b"B\xC3\xBCste_1.png\nB\xC3\xBCste_2.png\n".to_vec(),
+    ));
+    let input = read(files.clone()).unwrap();
+    assert_eq!(
+        (input.plan.order.clone(), input.file_names.len()),
+        (Order::Names, 5)
+    );
+    let list = "B\u{fc}ste_3.png\nB\u{fc}ste_1.png\nB\u{fc}ste_2.tif\n";
+    files.push(file("names.txt", list.as_bytes().to_vec()));
+    let input = read(files).unwrap();
+    assert_eq!(input.plan.order, Order::List("names.txt".into()));
+    assert_eq!(
+        input.file_names,
+        [3, 1, 2].map(|k| format!("Bu\u{308}ste_{k}.PNG"))
+    );
+    assert!(input.plan.notices.contains(&Notice::ListByStem {
+        list: "names.txt".into()
+    }));
+    let unlisted = input
+        .plan
+        .left_out
+        .iter()
+        .filter(|left| left.reason == LeftOutReason::NotListed);
+    assert_eq!(unlisted.count(), 2);
+}
+
+#[test]
+fn repeated_names_keep_their_folders_and_copies_are_refused() {
+    let input = read(shots(|k| format!("light{k}/IMG.png"))).unwrap();
+    assert_eq!(input.picked_names()[4], "light5/IMG.png");
+    let mut files = shots(|k| format!("IMG_{k}.png"));
+    files.extend(shots(|k| format!("IMG_{k}.tif")));
+    let error = read(files).unwrap_err();
+    assert!(
+        matches!(&error, IoError::Copies { shots: 5, .. }),
+        "{error}"
+    );
+    assert!(
+        error.to_string().contains("IMG_1.png and IMG_1.tif"),
+        "{error}"
+    );
+}
+
+#[test]
+fn photographs_one_folder_down_are_found_and_said() {
+    let place = tempfile::tempdir().unwrap();
+    let exports: Vec<(String, Vec<u8>)> = three(16, 12)
+        .into_iter()
+        .map(|f| (f.name, f.bytes))
+        .collect();
+    write_files(&place.path().join("jpeg-exports"), &exports).unwrap();
+    write_files(place.path(), &[("Thumbs.db", "x"), ("vase.lp", "1\n")]).unwrap();
+    write_files(&place.path().join("original-captures"), &[("a.NEF", "x")]).unwrap();
+    let options = ReadOptions::default();
+    let error = read_paths(&[place.path().to_owned()], &options).unwrap_err();
+    assert!(
+        matches!(&error, IoError::PhotographsBelow { below, .. } if below == "3 in jpeg-exports"),
+        "{error}"
+    );
+    assert!(read_paths(&[place.path().join("jpeg-exports")], &options).is_ok());
+}
+
+#[test]
+fn an_odd_name_is_said() {
+    let mut files = shots(|k| format!("IMG_{k}.png"));
+    files.push(file("panorama.png", shaded_png(16, 12, 8)));
+    let input = read(files).unwrap();
+    assert_eq!(input.file_names.len(), 6);
+    assert!(input.plan.notices.contains(&Notice::OddName {
+        file: "panorama.png".into()
+    }));
+}
