@@ -2,9 +2,28 @@
 // Changes by hand are lost: change the Rust types.
 
 /**
+ * How samples were taken to relate to light.
+ */
+export interface ColorDecision {
+    /**
+     * `linear`, `sRGB`, or what the files say of themselves.
+     */
+    taken: string;
+    /**
+     * Why.
+     */
+    because: ColorReason;
+}
+
+/**
  * How the samples of photographs are taken to relate to light.
  */
 export type ColorMode = "auto" | "linear" | "srgb";
+
+/**
+ * Why samples were taken as they were.
+ */
+export type ColorReason = "asked" | "stated" | "benchmark" | "shading" | "usual";
 
 /**
  * How class probabilities become numbers.
@@ -85,6 +104,60 @@ export interface FloatMap {
 }
 
 /**
+ * What was decided about the files of a stack and why: for people ([`fmt::Display`]: a few lines,
+ * with `{:#}` every file), for `report.json` and for the page.
+ */
+export interface InputPlan {
+    /**
+     * The photographs that were read, in order.
+     */
+    photographs: string[];
+    /**
+     * What decided about them and their order.
+     */
+    order: Order;
+    /**
+     * Files that are not among them.
+     */
+    left_out: LeftOut[];
+    /**
+     * Where the mask came from, in words or by its file name.
+     */
+    mask: string;
+    /**
+     * How samples were taken.
+     */
+    color: ColorDecision;
+    /**
+     * How given lights were matched; `None` when there were none.
+     */
+    lights: LightsDecision | undefined;
+    /**
+     * What is doubtful.
+     */
+    notices: Notice[];
+}
+
+/**
+ * A file that is not among the photographs.
+ */
+export interface LeftOut {
+    /**
+     * The file.
+     */
+    file: string;
+    /**
+     * Why.
+     */
+    reason: LeftOutReason;
+}
+
+/**
+ * Why a file is not among the photographs.
+ */
+export type LeftOutReason = { kind: "mask" } | { kind: "ambient" } | { kind: "map"; word: string } | { kind: "not-listed" } | { kind: "other-size"; size: [number, number] } | { kind: "unread-format"; format: string } | { kind: "not-an-image" } | { kind: "system" };
+
+/**
  * The light of one photograph: a unit vector from the object to the light, x right, y up, z to the camera.
  */
 export interface Light {
@@ -103,6 +176,20 @@ export interface Light {
      * 0 (no idea) to 1 (certain).
      */
     confidence: number;
+}
+
+/**
+ * How given lights were matched with the photographs.
+ */
+export interface LightsDecision {
+    /**
+     * The light file.
+     */
+    file: string;
+    /**
+     * The least sure rule that matched a light.
+     */
+    matched: NameMatch;
 }
 
 /**
@@ -134,9 +221,24 @@ export interface MaskReport {
 export type MaskSetting = "auto" | "none";
 
 /**
+ * By what two names were found to mean the same file, the surest first.
+ */
+export type NameMatch = "full" | "path-end" | "stem" | "number" | "position";
+
+/**
  * Which way green points in an exported normal map.
  */
 export type NormalFormat = "opengl" | "directx";
+
+/**
+ * Something about the input that a person should know.
+ */
+export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "odd-name"; file: string } | { kind: "several-pages"; file: string; pages: number } | { kind: "infinite"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string } | { kind: "color-unstated"; taken: string } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-as-angles"; file: string; unit: string };
+
+/**
+ * What decided about the photographs and their order.
+ */
+export type Order = "names" | { list: string };
 
 /**
  * A file to keep.
@@ -207,6 +309,10 @@ export interface Report {
      * How samples were taken.
      */
     color: ColorMode;
+    /**
+     * What was decided about the files, and what is doubtful.
+     */
+    plan: InputPlan;
     /**
      * Where the lights came from, in words.
      */

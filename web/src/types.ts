@@ -2,14 +2,23 @@ import type { ColorMode, NormalFormat, Quality, Stage } from "./generated.js";
 
 // What crosses into the module and back has one definition, in Rust; here is what only TypeScript knows.
 export type {
+  ColorDecision,
   ColorMode,
+  ColorReason,
   Decoding,
   Estimate,
   FloatMap,
+  InputPlan,
+  LeftOut,
+  LeftOutReason,
   Light,
+  LightsDecision,
   MaskOrigin,
   MaskReport,
+  NameMatch,
   NormalFormat,
+  Notice,
+  Order,
   OutputFile,
   OutputName,
   Plan,

@@ -346,7 +346,8 @@ fn a_dry_run_says_the_plan_and_stops() {
     let dry = |more: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_normalight"));
         command.args(["estimate", path(&photographs), "--dry-run"]);
-        said(command.args(more).output().unwrap())
+        command.args(more);
+        said(command)
     };
     let short = dry(&[]);
     for part in [
