@@ -1,6 +1,6 @@
 //! From a folder of photographs to a folder with the lights and the normals:
 //!
-//!     cargo run --release --example estimate_files -- PHOTOS RESULT
+//!     cargo run --release -p normalight-model --example estimate_files -- PHOTOS RESULT
 use burn::tensor::Device;
 use normalight_io::{ReadOptions, lights_csv, normals_npy, normals_png, read_paths, write_files};
 use normalight_model::{EstimateSettings, Estimator, NoopObserver, default_weights};

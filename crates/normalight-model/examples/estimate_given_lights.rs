@@ -1,6 +1,6 @@
 //! Normals from photographs under lights that are known (calibrated photometric stereo), beside those of least squares:
 //!
-//!     cargo run --release --example estimate_given_lights
+//!     cargo run --release -p normalight-model --example estimate_given_lights
 use burn::tensor::Device;
 use normalight_core::{least_squares_normals, normal_error};
 use normalight_model::{EstimateSettings, Estimator, NoopObserver, default_weights};

@@ -1,6 +1,6 @@
 //! From photographs in memory to lights and normals. They are rendered here, so the truth is known:
 //!
-//!     cargo run --release --example estimate_memory
+//!     cargo run --release -p normalight-model --example estimate_memory
 use burn::tensor::Device;
 use normalight_core::{mean_light_error, normal_error};
 use normalight_model::{EstimateSettings, Estimator, NoopObserver, default_weights};

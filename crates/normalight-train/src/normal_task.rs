@@ -228,6 +228,7 @@ mod tests {
     use super::*;
     use crate::LightMix;
     use glam::Vec3;
+    use normalight_run::seeded;
     use normalight_synth::{Preset, Renderer};
 
     /// What training shows the network is what the pipeline shows it, up to rounding in the stack of photographs.
@@ -244,7 +245,7 @@ mod tests {
         };
         let task = NormalTask::new(&settings);
         let renderer = Renderer::new(Preset::World.recipe()).unwrap();
-        let training = task.network(&device).unwrap();
+        let training = seeded(&device, 1, || task.network(&device)).unwrap();
         for number in 0..3 {
             let mut sample = renderer.sample(number, 5, 16, Framing::Crop);
             // So that the pipeline's tile is the whole crop.
@@ -274,7 +275,8 @@ mod tests {
             ))
             .unwrap();
             for (found, shown) in normals.normals().iter().zip(shown.chunks_exact(3)) {
-                assert!(found.distance(Vec3::from_slice(shown)) < 1e-5);
+                // Rounding grows where the vector before it gets unit length is short.
+                assert!(found.distance(Vec3::from_slice(shown)) < 1e-4);
             }
         }
     }
