@@ -27,7 +27,7 @@ pub struct SearchRun {
     pub command: String,
 }
 
-/// Searches as the recipe says; `observe` as in [`train`](crate::train).
+/// Searches as the recipe says; `observe` as in [`train`](normalight_train::train).
 ///
 /// The folder then holds what one of a training run does, but instead of weights `genotype.json`, which training takes as
 /// it is, drawings of the cells, and the operations' weights over time as `alpha.csv` and as drawings.
