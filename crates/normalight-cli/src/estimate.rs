@@ -19,12 +19,9 @@ use std::time::Instant;
 /// Photographs in, files out. What can fail early comes first; nothing is written before all of it
 /// is computed.
 pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
-    let Some(out) = &args.out else {
+    let (Some(out), false) = (&args.out, args.dry_run) else {
         return dry_run(args);
     };
-    if args.dry_run {
-        return dry_run(args);
-    }
     check_apart(&args.inputs, out)?;
     let folder = OutputFolder::prepare(out)?;
     let start = Instant::now();

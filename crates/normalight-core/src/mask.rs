@@ -57,6 +57,12 @@ impl Mask {
         &self.inside
     }
 
+    /// Positions of the pixels inside, row by row.
+    pub fn pixels(&self) -> Vec<usize> {
+        let all = 0..self.inside.len();
+        all.filter(|&pixel| self.inside[pixel]).collect()
+    }
+
     /// Number of pixels of the object.
     pub fn count(&self) -> usize {
         self.inside.iter().filter(|&&inside| inside).count()

@@ -47,7 +47,7 @@ impl StackStatistics {
                 expected_height: height,
             });
         }
-        let inside: Vec<usize> = (0..width * height).filter(|&p| mask.inside()[p]).collect();
+        let inside = mask.pixels();
         let mut values = vec![[0.0; 3]; inside.len()];
         let mut sums = vec![0.0f64; inside.len()];
         let mut peaks = vec![0.0f64; inside.len()];

@@ -46,13 +46,12 @@ pub(crate) fn assemble(
     }
     let given = match &options.mask {
         MaskChoice::WholeFrame => None,
-        MaskChoice::File(file) => Some((
-            file.name.clone(),
-            mask_file::read(&file.name, &file.bytes, None)?,
-        )),
+        MaskChoice::File(file) => {
+            Some((file.name.clone(), mask_file::read(&file.name, &file.bytes)?))
+        }
         MaskChoice::Auto => match plan.mask {
             Some(index) => {
-                let file = mask_file::read(&names[index], &load(index)?, None)?;
+                let file = mask_file::read(&names[index], &load(index)?)?;
                 Some((names[index].clone(), file))
             }
             None => None,
@@ -248,11 +247,7 @@ fn decide_color(
             _ => None,
         };
         if let Some(looks) = looks {
-            let taken = if looks == Transfer::Srgb {
-                Transfer::Linear
-            } else {
-                Transfer::Srgb
-            };
+            let taken = stack.images()[0].transfer;
             notices.push(Notice::LooksOtherwise {
                 taken: word(taken).to_owned(),
                 looks: word(looks).to_owned(),

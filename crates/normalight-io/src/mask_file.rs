@@ -1,8 +1,8 @@
 //! Masks as programs write them.
+use crate::color::mapped;
 use crate::decode::{Stored, decode_stored, turned_mask};
 use crate::{ColorMode, IoError, Notice};
-use image::metadata::Orientation;
-use normalight_core::{Mask, Samples, luminance};
+use normalight_core::{Mask, luminance};
 
 /// A mask from a file, with what is doubtful about it.
 pub(crate) struct MaskFile {
@@ -17,30 +17,19 @@ pub(crate) struct MaskFile {
 /// # Errors
 /// As [`decode_image`](crate::decode_image).
 pub fn decode_mask(name: &str, bytes: &[u8]) -> Result<Mask, IoError> {
-    Ok(read(name, bytes, None)?.mask)
+    Ok(read(name, bytes)?.mask)
 }
 
-/// As [`decode_mask`]; `as_stored` leaves out the turn that EXIF asks for.
-pub(crate) fn read(
-    name: &str,
-    bytes: &[u8],
-    orientation: Option<Orientation>,
-) -> Result<MaskFile, IoError> {
+/// As [`decode_mask`], with what is doubtful.
+pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<MaskFile, IoError> {
     let Stored {
         image,
         alpha,
-        orientation: own,
+        orientation,
         mut notices,
         ..
     } = decode_stored(name, bytes, ColorMode::Linear)?;
-    let values: Vec<f32> = match &image.samples {
-        Samples::U8(codes) => codes.iter().map(|&code| f32::from(code) / 255.0).collect(),
-        Samples::U16(codes) => codes
-            .iter()
-            .map(|&code| f32::from(code) / 65_535.0)
-            .collect(),
-        Samples::F32(values) => values.clone(),
-    };
+    let values = mapped(&image.samples, |value| value);
     let grey: Vec<f32> = values
         .chunks_exact(image.channels)
         .map(|pixel| match *pixel {
@@ -82,7 +71,7 @@ pub(crate) fn read(
         }
     };
     Ok(MaskFile {
-        mask: turned_mask(mask, orientation.unwrap_or(own)),
+        mask: turned_mask(mask, orientation),
         notices,
     })
 }

@@ -12,9 +12,7 @@ const SATURATED: f32 = 0.2;
 /// # Errors
 /// [`IoError::AllIdentical`].
 pub(crate) fn check(stack: &ImageStack, mask: &Mask) -> Result<Vec<Notice>, IoError> {
-    let inside: Vec<usize> = (0..mask.inside().len())
-        .filter(|&pixel| mask.inside()[pixel])
-        .collect();
+    let inside = mask.pixels();
     let chosen: Vec<usize> = evenly_spaced_indices(inside.len(), PIXELS)
         .into_iter()
         .map(|place| inside[place])

@@ -1,8 +1,9 @@
 //! The exponential moving average of a network's numbers.
-use crate::named_tensors::{NamedTensors, collect};
+use crate::named_tensors::{NamedTensors, OnDevice, collect, read_all};
 use crate::optimiser::StepsOn;
-use burn::module::{Module, ModuleVisitor, Param};
-use burn::tensor::{Device, Tensor, TensorData};
+use crate::optimiser::place::Place;
+use burn::module::Module;
+use burn::tensor::{Device, Tensor};
 use std::collections::BTreeMap;
 
 /// Weights averaged over the last steps: they generalise better than those of any one step.
@@ -25,7 +26,7 @@ impl Average {
     pub fn new<M: Module>(decay: f32, place: StepsOn, network: &M) -> Option<Self> {
         let values = || match place {
             StepsOn::Host => Values::Host(collect(network)),
-            StepsOn::Device => Values::Device(tensors(network)),
+            StepsOn::Device => Values::Device(read_all::<OnDevice, M>(network, None)),
         };
         (decay > 0.0).then(|| Self {
             decay,
@@ -41,7 +42,7 @@ impl Average {
         match &mut self.values {
             Values::Host(averages) => blend(averages, &collect(network), kept),
             Values::Device(averages) => {
-                for (name, now) in tensors(network) {
+                for (name, now) in read_all::<OnDevice, M>(network, None) {
                     if let Some(average) = averages.get_mut(&name) {
                         *average = average.clone() + (now - average.clone()) * (1.0 - kept);
                     }
@@ -56,7 +57,7 @@ impl Average {
             Values::Host(values) => values.clone(),
             Values::Device(values) => {
                 let values = values.iter();
-                let host = values.map(|(name, one)| (name.clone(), crate::host(one.clone())));
+                let host = values.map(|(name, one)| (name.clone(), OnDevice::to_host(one)));
                 host.collect()
             }
         }
@@ -67,11 +68,7 @@ impl Average {
         self.values = match self.values {
             Values::Host(_) => Values::Host(values),
             Values::Device(_) => {
-                let tensor = |(name, values): (String, Vec<f32>)| {
-                    let count = values.len();
-                    let data = TensorData::new(values, [count]);
-                    (name, Tensor::from_data(data, device))
-                };
+                let tensor = |(name, values)| (name, OnDevice::from_host(values, device));
                 Values::Device(values.into_iter().map(tensor).collect())
             }
         };
@@ -87,39 +84,10 @@ fn blend(averages: &mut NamedTensors, now: &NamedTensors, kept: f32) {
     }
 }
 
-/// A network's numbers where they are, flat.
-fn tensors<M: Module>(network: &M) -> BTreeMap<String, Tensor<1>> {
-    let mut lister = Lister::default();
-    network.visit(&mut lister);
-    lister.found
-}
-
-#[derive(Default)]
-struct Lister {
-    path: Vec<String>,
-    found: BTreeMap<String, Tensor<1>>,
-}
-
-impl ModuleVisitor for Lister {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
-    }
-
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        let tensor = param.val().inner();
-        let count = tensor.shape().num_elements();
-        self.found
-            .insert(self.path.join("."), tensor.reshape([count]));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use burn::module::Param;
 
     #[derive(Module, Debug)]
     struct One {

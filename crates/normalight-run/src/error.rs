@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// What can go wrong with a run, whatever it trains.
@@ -95,4 +95,15 @@ impl Failure for RunError {
     fn run_error(&self) -> Option<&RunError> {
         Some(self)
     }
+}
+
+/// Reads a text file.
+///
+/// # Errors
+/// [`RunError::File`].
+pub fn read_text(path: &Path) -> Result<String, RunError> {
+    std::fs::read_to_string(path).map_err(|reason| RunError::File {
+        path: path.to_owned(),
+        reason,
+    })
 }

@@ -28,7 +28,7 @@ pub use average::Average;
 pub use check::check;
 pub use checkpoint::{Loaded, load};
 pub use difference::{Difference, differences};
-pub use error::{Failure, RunError};
+pub use error::{Failure, RunError, read_text};
 pub use hash::sha256;
 pub use learner::{Learner, StepOutcome, Validation};
 pub use loader::{BatchMaker, Batches};

@@ -1,7 +1,8 @@
 //! A network's numbers under the names of its parts, on the host.
 use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
-use burn::tensor::{Element, Tensor, TensorData};
+use burn::tensor::{Element, Gradients, Tensor, TensorData};
 use std::collections::BTreeMap;
+use std::marker::PhantomData;
 
 /// Values by name.
 pub type NamedTensors = BTreeMap<String, Vec<f32>>;
@@ -11,9 +12,7 @@ pub type NamedTensors = BTreeMap<String, Vec<f32>>;
 /// Training networks must come through `valid()`: without it the last update of the running
 /// statistics is still on its way, and a resumed run would not continue exactly.
 pub fn collect<M: Module>(network: &M) -> NamedTensors {
-    let mut collector = Collector::default();
-    network.visit(&mut collector);
-    collector.found
+    read_all::<OnHost, M>(network, None)
 }
 
 /// Puts numbers into a network; those it does not know stay in `tensors`.
@@ -66,13 +65,65 @@ pub fn scalar(loss: Tensor<1>) -> f32 {
     host(loss).first().copied().unwrap_or(f32::NAN)
 }
 
-#[derive(Default)]
-struct Collector {
-    path: Vec<String>,
-    found: NamedTensors,
+/// What is read of a tensor.
+pub(crate) trait Read {
+    /// What is left of it.
+    type Value;
+
+    /// Of a tensor, apart from any graph.
+    fn read<const D: usize>(tensor: Tensor<D>) -> Self::Value;
 }
 
-impl ModuleVisitor for Collector {
+/// Its values on the host, in any precision.
+#[derive(Debug, Clone)]
+pub(crate) struct Values<E>(PhantomData<E>);
+
+/// Its values on the host as training has them.
+pub(crate) type OnHost = Values<f32>;
+
+/// The values where they are, flat.
+#[derive(Debug, Clone)]
+pub(crate) struct OnDevice;
+
+impl<E: Element> Read for Values<E> {
+    type Value = Vec<E>;
+
+    fn read<const D: usize>(tensor: Tensor<D>) -> Vec<E> {
+        host(tensor)
+    }
+}
+
+impl Read for OnDevice {
+    type Value = Tensor<1>;
+
+    fn read<const D: usize>(tensor: Tensor<D>) -> Tensor<1> {
+        let count = tensor.shape().num_elements();
+        tensor.inner().reshape([count])
+    }
+}
+
+/// Reads every number of a network, or every gradient that there is, by the names of the weights.
+pub(crate) fn read_all<R: Read, M: Module>(
+    network: &M,
+    gradients: Option<&Gradients>,
+) -> BTreeMap<String, R::Value> {
+    let mut reader = Reader::<R> {
+        gradients,
+        path: Vec::new(),
+        found: BTreeMap::new(),
+    };
+    network.visit(&mut reader);
+    reader.found
+}
+
+struct Reader<'a, R: Read> {
+    /// Read instead of the numbers.
+    gradients: Option<&'a Gradients>,
+    path: Vec<String>,
+    found: BTreeMap<String, R::Value>,
+}
+
+impl<R: Read> ModuleVisitor for Reader<'_, R> {
     fn enter_module(&mut self, name: &str, _container: &str) {
         self.path.push(name.to_owned());
     }
@@ -82,7 +133,13 @@ impl ModuleVisitor for Collector {
     }
 
     fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        self.found.insert(self.path.join("."), host(param.val()));
+        let tensor = match self.gradients {
+            Some(gradients) => param.val().grad(gradients),
+            None => Some(param.val()),
+        };
+        if let Some(tensor) = tensor {
+            self.found.insert(self.path.join("."), R::read(tensor));
+        }
     }
 }
 

@@ -2,17 +2,16 @@
 mod adam;
 mod gradients;
 mod muon;
-mod place;
+pub(crate) mod place;
 mod recipe;
 mod state;
 
 pub use gradients::{DeviceGradients, HostGradients, StepGradients, collect_gradients};
 pub use recipe::{Decay, DepthwiseRule, MuonRecipe, OptimiserKind, OptimiserRecipe, Schedule};
 
-use crate::named_tensors::NamedTensors;
+use crate::named_tensors::{NamedTensors, OnDevice, OnHost};
 use burn::module::Module;
 use burn::tensor::{Device, Gradients};
-use place::{OnDevice, OnHost};
 use state::State;
 
 /// Where an optimiser computes.

@@ -1,8 +1,8 @@
 use super::SearchRecipe;
 use burn::tensor::Tensor;
 use normalight_model::{Cell, CellSite, Operation, Relaxation, SearchSpace, operation_cost};
-use normalight_run::RunError;
 use normalight_run::check;
+use normalight_run::{RunError, read_text};
 use normalight_train::{TrainError, TrainRecipe};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -92,12 +92,7 @@ impl OperationTimes {
     /// # Errors
     /// [`RunError::File`], or [`RunError::Recipe`] for other contents.
     pub fn read(path: &Path) -> Result<Self, TrainError> {
-        let text = std::fs::read_to_string(path).map_err(|reason| {
-            TrainError::Run(RunError::File {
-                path: path.to_owned(),
-                reason,
-            })
-        })?;
+        let text = read_text(path)?;
         let failed = |reason: String| {
             TrainError::Run(RunError::Recipe {
                 file: path.display().to_string(),

@@ -1,6 +1,6 @@
 use super::Budget;
 use normalight_model::{Operation, SearchSpace};
-use normalight_run::{Decay, OptimiserRecipe, RunError, Schedule, check};
+use normalight_run::{Decay, OptimiserRecipe, RunError, Schedule, check, read_text};
 use normalight_train::{TrainError, TrainRecipe, read_table, take_out};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -153,12 +153,7 @@ impl SearchRecipe {
     /// # Errors
     /// As of [`TrainRecipe::read`].
     pub fn read(path: &Path) -> Result<Self, TrainError> {
-        let text = std::fs::read_to_string(path).map_err(|reason| {
-            TrainError::Run(RunError::File {
-                path: path.to_owned(),
-                reason,
-            })
-        })?;
+        let text = read_text(path)?;
         let recipe = Self::parse(&path.display().to_string(), &text)?;
         recipe.with_paths_from(path)
     }

@@ -14,7 +14,7 @@ pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
 
 use crate::TrainError;
 use normalight_model::Genotypes;
-use normalight_run::{OptimiserRecipe, RunError};
+use normalight_run::{OptimiserRecipe, RunError, read_text};
 use normalight_synth::SceneRecipe;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -172,15 +172,6 @@ impl TrainRecipe {
     pub fn rate(&self, step: usize) -> f32 {
         self.optimiser.rate(step, self.steps)
     }
-}
-
-fn read_text(path: &Path) -> Result<String, TrainError> {
-    std::fs::read_to_string(path).map_err(|reason| {
-        TrainError::Run(RunError::File {
-            path: path.to_owned(),
-            reason,
-        })
-    })
 }
 
 #[cfg(test)]

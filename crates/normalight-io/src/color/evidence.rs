@@ -24,9 +24,7 @@ pub(crate) fn encoded_factor(stack: &ImageStack, mask: &Mask) -> Option<f32> {
         return None;
     }
     let chosen = evenly_spaced_indices(stack.len(), IMAGES);
-    let inside: Vec<usize> = (0..mask.inside().len())
-        .filter(|&pixel| mask.inside()[pixel])
-        .collect();
+    let inside = mask.pixels();
     // Many more than are used: most lie in some shadow.
     let tried = evenly_spaced_indices(inside.len(), 20 * PIXELS);
     let pixels: Vec<Vec<f32>> = tried

@@ -4,7 +4,7 @@ use super::recipe::Decay;
 use burn::tensor::Tensor;
 
 /// One step of one tensor.
-pub(super) struct AdamStep<'a> {
+pub(crate) struct AdamStep<'a> {
     pub(super) settings: StepSettings<'a>,
     /// Number of this step, from 1.
     pub(super) step: i32,

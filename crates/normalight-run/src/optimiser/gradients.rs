@@ -1,10 +1,10 @@
 //! The gradients of a step, gathered by the names of the weights.
 use super::StepsOn;
-use super::place::{OnDevice, OnHost, Place};
+use super::place::Place;
 use super::state::Collected;
-use crate::named_tensors::{NamedTensors, host};
-use burn::module::{Module, ModuleVisitor, Param};
-use burn::tensor::{Element, Gradients, Tensor};
+use crate::named_tensors::{NamedTensors, OnDevice, OnHost, Values, read_all};
+use burn::module::Module;
+use burn::tensor::{Element, Gradients};
 use std::collections::BTreeMap;
 
 /// Gradients by the names of the weights, where the optimiser wants them.
@@ -56,35 +56,7 @@ impl StepGradients {
 }
 
 fn gathered<M: Module, P: Place>(network: &M, gradients: &Gradients) -> Collected<P> {
-    let mut gatherer = Gatherer::<P> {
-        gradients,
-        path: Vec::new(),
-        found: BTreeMap::new(),
-    };
-    network.visit(&mut gatherer);
-    Collected::new(gatherer.found)
-}
-
-struct Gatherer<'a, P: Place> {
-    gradients: &'a Gradients,
-    path: Vec<String>,
-    found: BTreeMap<String, P::Numbers>,
-}
-
-impl<P: Place> ModuleVisitor for Gatherer<'_, P> {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
-    }
-
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        if let Some(gradient) = param.val().grad(self.gradients) {
-            self.found.insert(self.path.join("."), P::numbers(gradient));
-        }
-    }
+    Collected::new(read_all::<P, M>(network, Some(gradients)))
 }
 
 /// Reads the gradient of every weight that has one to the host, by the weights' names, in either precision.
@@ -92,33 +64,5 @@ pub fn collect_gradients<M: Module, E: Element>(
     network: &M,
     gradients: &Gradients,
 ) -> BTreeMap<String, Vec<E>> {
-    let mut collector = Collector {
-        gradients,
-        path: Vec::new(),
-        found: BTreeMap::new(),
-    };
-    network.visit(&mut collector);
-    collector.found
-}
-
-struct Collector<'a, E> {
-    gradients: &'a Gradients,
-    path: Vec<String>,
-    found: BTreeMap<String, Vec<E>>,
-}
-
-impl<E: Element> ModuleVisitor for Collector<'_, E> {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
-    }
-
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        if let Some(gradient) = param.val().grad(self.gradients) {
-            self.found.insert(self.path.join("."), host(gradient));
-        }
-    }
+    read_all::<Values<E>, M>(network, Some(gradients))
 }

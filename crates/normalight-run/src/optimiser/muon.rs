@@ -11,7 +11,7 @@ const STEPS: usize = 5;
 
 /// How a weight is a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     /// Convolutions by output channel, `[out, in * height * width]`, and layers `[in, out]`.
     Matrix {
         rows: usize,
@@ -62,7 +62,7 @@ fn length([inputs, outputs]: [usize; 2]) -> f32 {
 }
 
 /// One step of one tensor.
-pub(super) struct MuonStep<'a> {
+pub(crate) struct MuonStep<'a> {
     pub(super) settings: StepSettings<'a>,
     pub(super) shape: Shape,
     /// Where matrices are multiplied.

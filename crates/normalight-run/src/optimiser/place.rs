@@ -2,70 +2,53 @@
 use super::adam::AdamStep;
 use super::muon::MuonStep;
 use super::recipe::OptimiserRecipe;
-use crate::named_tensors::host;
+use crate::named_tensors::{OnDevice, OnHost, Read, host, scalar};
 use burn::tensor::{Device, Tensor, TensorData};
 use std::fmt::Debug;
 
 /// A place for moments and momentum, with the arithmetic of a step there. Both places give the same weights up to
 /// rounding; checkpoints are the same.
-pub(super) trait Place: Debug + Clone + Send + 'static {
-    /// The values of one tensor.
-    type Numbers: Debug + Clone + Send;
-
-    /// Of a tensor, apart from any graph.
-    fn numbers<const D: usize>(tensor: Tensor<D>) -> Self::Numbers;
-
+pub(crate) trait Place:
+    Read<Value: Debug + Clone + Send> + Debug + Clone + Send + 'static
+{
     /// The reverse: a tensor on `device`, which may have gradients switched on.
     fn tensor<const D: usize>(
-        numbers: Self::Numbers,
+        numbers: Self::Value,
         shape: [usize; D],
         device: &Device,
     ) -> Tensor<D>;
 
     /// For checkpoints.
-    fn to_host(numbers: &Self::Numbers) -> Vec<f32>;
+    fn to_host(numbers: &Self::Value) -> Vec<f32>;
 
     /// From checkpoints. `device`: a plain one.
-    fn from_host(values: Vec<f32>, device: &Device) -> Self::Numbers;
+    fn from_host(values: Vec<f32>, device: &Device) -> Self::Value;
 
     /// As many zeros.
-    fn zeros(like: &Self::Numbers) -> Self::Numbers;
+    fn zeros(like: &Self::Value) -> Self::Value;
 
     /// Norm over everything; reads one number back at most.
-    fn norm<'a>(all: impl Iterator<Item = &'a Self::Numbers>) -> f32;
+    fn norm<'a>(all: impl Iterator<Item = &'a Self::Value>) -> f32;
 
     /// The weights after a step of Adam.
     fn adam(
         step: &AdamStep<'_>,
-        weights: Self::Numbers,
-        gradient: &Self::Numbers,
-        moments: &mut [Self::Numbers; 2],
-    ) -> Self::Numbers;
+        weights: Self::Value,
+        gradient: &Self::Value,
+        moments: &mut [Self::Value; 2],
+    ) -> Self::Value;
 
     /// The weights after a step of Muon.
     fn muon(
         step: &MuonStep<'_>,
-        weights: Self::Numbers,
-        gradient: &Self::Numbers,
-        momentum: &mut Self::Numbers,
-    ) -> Self::Numbers;
+        weights: Self::Value,
+        gradient: &Self::Value,
+        momentum: &mut Self::Value,
+    ) -> Self::Value;
 }
 
-/// Plain numbers: the least work for a processor, which has them at hand anyway.
-#[derive(Debug, Clone)]
-pub(super) struct OnHost;
-
-/// Tensors beside the network's: nothing travels to the host and back at a step.
-#[derive(Debug, Clone)]
-pub(super) struct OnDevice;
-
+/// The least work for a processor, which has the numbers at hand anyway.
 impl Place for OnHost {
-    type Numbers = Vec<f32>;
-
-    fn numbers<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
-        host(tensor)
-    }
-
     fn tensor<const D: usize>(numbers: Vec<f32>, shape: [usize; D], device: &Device) -> Tensor<D> {
         Tensor::from_data(TensorData::new(numbers, shape), device)
     }
@@ -108,14 +91,8 @@ impl Place for OnHost {
     }
 }
 
+/// Nothing travels to the host and back at a step.
 impl Place for OnDevice {
-    type Numbers = Tensor<1>;
-
-    fn numbers<const D: usize>(tensor: Tensor<D>) -> Tensor<1> {
-        let count = tensor.shape().num_elements();
-        tensor.inner().reshape([count])
-    }
-
     fn tensor<const D: usize>(numbers: Tensor<1>, shape: [usize; D], device: &Device) -> Tensor<D> {
         let tensor = numbers.reshape(shape);
         if device.is_autodiff() {
@@ -141,7 +118,7 @@ impl Place for OnDevice {
     fn norm<'a>(all: impl Iterator<Item = &'a Tensor<1>>) -> f32 {
         let squares = all.map(|one| (one.clone() * one.clone()).sum());
         let sum = squares.reduce(|sum, one| sum + one);
-        sum.map_or(0.0, |sum| crate::named_tensors::scalar(sum).sqrt())
+        sum.map_or(0.0, |sum| scalar(sum).sqrt())
     }
 
     fn adam(
@@ -165,7 +142,7 @@ impl Place for OnDevice {
 
 /// What a step of either rule is told.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct StepSettings<'a> {
+pub(crate) struct StepSettings<'a> {
     pub(super) recipe: &'a OptimiserRecipe,
     /// Learning rate of the rule.
     pub(super) rate: f32,

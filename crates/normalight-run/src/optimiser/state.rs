@@ -12,20 +12,20 @@ use std::collections::BTreeMap;
 pub(super) struct State<P: Place> {
     step: i32,
     /// Adam's first and second moments by name.
-    moments: BTreeMap<String, [P::Numbers; 2]>,
+    moments: BTreeMap<String, [P::Value; 2]>,
     /// Muon's momentum by name, of those weights that are its.
-    momentum: BTreeMap<String, P::Numbers>,
+    momentum: BTreeMap<String, P::Value>,
 }
 
 /// Gradients by the names of the weights, and their norm over all of them.
 #[derive(Debug, Clone)]
 pub(super) struct Collected<P: Place> {
-    pub(super) values: BTreeMap<String, P::Numbers>,
+    pub(super) values: BTreeMap<String, P::Value>,
     pub(super) norm: f32,
 }
 
 impl<P: Place> Collected<P> {
-    pub(super) fn new(values: BTreeMap<String, P::Numbers>) -> Self {
+    pub(super) fn new(values: BTreeMap<String, P::Value>) -> Self {
         let norm = P::norm(values.values());
         Self { values, norm }
     }
@@ -114,7 +114,7 @@ impl<P: Place> State<P> {
 
 struct Updater<'a, P: Place> {
     state: &'a mut State<P>,
-    found: BTreeMap<String, P::Numbers>,
+    found: BTreeMap<String, P::Value>,
     settings: StepSettings<'a>,
     path: Vec<String>,
 }
@@ -135,7 +135,7 @@ impl<P: Place> ModuleMapper for Updater<'_, P> {
         };
         let tensor = param.val();
         let (dims, device) = (tensor.dims(), tensor.device());
-        let weights = P::numbers(tensor);
+        let weights = P::read(tensor);
         let recipe = self.settings.recipe;
         let shape = match recipe.kind {
             OptimiserKind::Adam => None,

@@ -1,6 +1,6 @@
 //! What is compared, and what it is called.
 use normalight_model::{Cell, Genotypes};
-use normalight_run::RunError;
+use normalight_run::{RunError, read_text};
 use normalight_train::{Network, TrainError};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -160,15 +160,6 @@ fn may_hold_genotypes(text: &str) -> bool {
         Ok(value) => value.get("light").is_some() || value.get("normal").is_some(),
         Err(_) => true,
     }
-}
-
-fn read_text(path: &Path) -> Result<String, TrainError> {
-    std::fs::read_to_string(path).map_err(|reason| {
-        TrainError::Run(RunError::File {
-            path: path.to_owned(),
-            reason,
-        })
-    })
 }
 
 /// What a file is called, and what stands in front where others are called the same.

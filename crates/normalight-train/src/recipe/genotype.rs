@@ -1,6 +1,6 @@
 use crate::TrainError;
 use normalight_model::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
-use normalight_run::RunError;
+use normalight_run::{RunError, read_text};
 use serde::Serialize;
 use std::path::Path;
 use toml::{Table, Value};
@@ -88,12 +88,7 @@ fn value<T: Serialize>(genotype: &T) -> Option<Value> {
 }
 
 fn read(path: &Path, network: &str) -> Result<Value, TrainError> {
-    let text = std::fs::read_to_string(path).map_err(|reason| {
-        TrainError::Run(RunError::File {
-            path: path.to_owned(),
-            reason,
-        })
-    })?;
+    let text = read_text(path)?;
     let genotypes = Genotypes::from_json(&path.display().to_string(), &text)?;
     let cells = match network {
         "light" => genotypes.light.map(Value::try_from),
