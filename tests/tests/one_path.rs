@@ -3,7 +3,9 @@
 
 use burn::tensor::Device;
 use normalight_core::{mean_light_error, normal_error};
-use normalight_model::{Estimate, EstimateSettings, Estimator, NoopObserver, default_weights};
+use normalight_model::{
+    Estimate, EstimateInput, EstimateSettings, Estimator, NoopObserver, default_weights,
+};
 use normalight_tests::golden_sample;
 
 /// Mean difference that two paths may have, in degrees.
@@ -15,9 +17,11 @@ fn estimate(device: Device) -> Estimate {
     let [light, normal] = default_weights().expect("the shipped weights are readable");
     let estimator = Estimator::new(&light, &normal, device).expect("the shipped weights fit");
     pollster::block_on(estimator.estimate(
-        &stack,
-        &sample.to_mask(),
-        None,
+        EstimateInput {
+            stack: &stack,
+            mask: &sample.to_mask(),
+            lights: None,
+        },
         EstimateSettings::default(),
         &mut NoopObserver,
     ))

@@ -12,7 +12,7 @@ use normalight_io::{
     IoError, MaskChoice, OutputFolder, ReadOptions, RunDescription, StackInput, StageSeconds,
     read_named, read_paths, result_files,
 };
-use normalight_model::ModelError;
+use normalight_model::{EstimateInput, ModelError};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -37,9 +37,11 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
 
     let mut observer = ProgressObserver::new("", args.quiet);
     let estimated = pollster::block_on(estimation.estimator.estimate(
-        &input.stack,
-        &input.mask,
-        lights.as_deref(),
+        EstimateInput {
+            stack: &input.stack,
+            mask: &input.mask,
+            lights: lights.as_deref(),
+        },
         estimation.settings,
         &mut observer,
     ));

@@ -1,5 +1,6 @@
 //! `evaluate` on a benchmark made here: its figures against others computed from the files that
 //! `estimate` leaves.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::*;

@@ -1,4 +1,5 @@
 //! Ctrl-C and SIGTERM end the work in good order; a killed training can be continued.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![cfg(unix)]
 mod common;
 

@@ -1,4 +1,5 @@
 //! `render` and `bench render`.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::*;

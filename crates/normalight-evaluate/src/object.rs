@@ -2,7 +2,7 @@ use crate::{EvaluateError, Figures, ObjectFigures};
 use normalight_core::{
     ImageStack, Light, Mask, NormalMap, intensity_error, mean_light_error, normal_error,
 };
-use normalight_model::{EstimateSettings, Estimator, Observer};
+use normalight_model::{EstimateInput, EstimateSettings, Estimator, Observer};
 use std::time::Instant;
 
 /// An object with the truth about it.
@@ -47,9 +47,11 @@ pub fn evaluate_object(
     };
     let start = Instant::now();
     let estimate = pollster::block_on(estimator.estimate(
-        &object.stack,
-        &object.mask,
-        given,
+        EstimateInput {
+            stack: &object.stack,
+            mask: &object.mask,
+            lights: given,
+        },
         settings,
         observer,
     ))?;

@@ -1,11 +1,12 @@
 //! Evaluation: the pipeline as users run it, compared with the truth.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::tensor::Device;
 use normalight_core::{intensity_error, mean_light_error, normal_error};
 use normalight_evaluate::{BenchmarkObject, EvaluateError, LightsFrom, evaluate_object};
 use normalight_model::{
-    EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError, NoopObserver,
-    NormalArchitecture, NormalNetwork, Observer, Progress, Weights,
+    EstimateInput, EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError,
+    NoopObserver, NormalArchitecture, NormalNetwork, Observer, Progress, Weights,
 };
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::collections::BTreeMap;
@@ -50,7 +51,15 @@ fn figures_are_the_errors_of_the_pipeline() {
     let (estimator, object) = (estimator(), object());
     let settings = EstimateSettings::default();
     let mut quiet = NoopObserver;
-    let estimated = estimator.estimate(&object.stack, &object.mask, None, settings, &mut quiet);
+    let estimated = estimator.estimate(
+        EstimateInput {
+            stack: &object.stack,
+            mask: &object.mask,
+            lights: None,
+        },
+        settings,
+        &mut quiet,
+    );
     let estimate = pollster::block_on(estimated).unwrap();
     let from = LightsFrom::Photographs;
     let found = evaluate_object(&estimator, &object, from, settings, &mut NoopObserver).unwrap();
@@ -75,7 +84,15 @@ fn true_lights_are_given_and_not_judged() {
     let settings = EstimateSettings::default();
     let given = Some(object.lights.as_slice());
     let mut quiet = NoopObserver;
-    let estimated = estimator.estimate(&object.stack, &object.mask, given, settings, &mut quiet);
+    let estimated = estimator.estimate(
+        EstimateInput {
+            stack: &object.stack,
+            mask: &object.mask,
+            lights: given,
+        },
+        settings,
+        &mut quiet,
+    );
     let estimate = pollster::block_on(estimated).unwrap();
     let from = LightsFrom::Truth;
     let found = evaluate_object(&estimator, &object, from, settings, &mut NoopObserver).unwrap();

@@ -1,4 +1,5 @@
 //! A small benchmark folder made here: its truth must come back, its faults must be named.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::{encode, mask_png, rgb8};

@@ -1,4 +1,5 @@
 //! Kinds of images that programs write, made here byte by byte.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::{encode, file, rgb8, shaded_png, three};

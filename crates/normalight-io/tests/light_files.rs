@@ -1,4 +1,5 @@
 //! Light files as people and their programs write them.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 use normalight_core::{Light, Vec3, angle_between};
 use normalight_io::{IoError, NameMatch, lights_csv, lights_lp, read_lights};
 

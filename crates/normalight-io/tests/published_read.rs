@@ -1,4 +1,5 @@
 //! Sets as others publish them.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::published::{entry, half_ball};

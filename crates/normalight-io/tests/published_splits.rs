@@ -1,4 +1,5 @@
 //! Training and validation parts of a set.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 use normalight_io::{IoError, PublishedEntry, PublishedSet, PublishedSplit, write_files};
 use std::collections::BTreeSet;
 

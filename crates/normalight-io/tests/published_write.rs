@@ -1,4 +1,5 @@
 //! Sets that are written, and read again.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::published::{codes, entry, half_ball, tree};

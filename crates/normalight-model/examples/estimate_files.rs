@@ -3,7 +3,7 @@
 //!     cargo run --release -p normalight-model --example estimate_files -- PHOTOS RESULT
 use burn::tensor::Device;
 use normalight_io::{ReadOptions, lights_csv, normals_npy, normals_png, read_paths, write_files};
-use normalight_model::{EstimateSettings, Estimator, NoopObserver, default_weights};
+use normalight_model::{EstimateInput, EstimateSettings, Estimator, NoopObserver, default_weights};
 use std::error::Error;
 use std::path::PathBuf;
 
@@ -26,9 +26,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let estimator = Estimator::new(&light, &normal, Device::flex())?;
     let settings = EstimateSettings::default();
     let estimate = pollster::block_on(estimator.estimate(
-        &input.stack,
-        &input.mask,
-        None,
+        EstimateInput {
+            stack: &input.stack,
+            mask: &input.mask,
+            lights: None,
+        },
         settings,
         &mut NoopObserver,
     ))?;

@@ -3,7 +3,7 @@
 //!     cargo run --release -p normalight-model --example estimate_given_lights
 use burn::tensor::Device;
 use normalight_core::{least_squares_normals, normal_error};
-use normalight_model::{EstimateSettings, Estimator, NoopObserver, default_weights};
+use normalight_model::{EstimateInput, EstimateSettings, Estimator, NoopObserver, default_weights};
 use normalight_synth::{Framing, Preset, Renderer};
 use std::error::Error;
 
@@ -17,9 +17,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = EstimateSettings::default();
     // Given lights replace the light network, and are never refitted.
     let estimate = pollster::block_on(estimator.estimate(
-        &stack,
-        &mask,
-        Some(&truth.lights),
+        EstimateInput {
+            stack: &stack,
+            mask: &mask,
+            lights: Some(&truth.lights),
+        },
         settings,
         &mut NoopObserver,
     ))?;

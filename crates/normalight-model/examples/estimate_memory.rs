@@ -3,7 +3,7 @@
 //!     cargo run --release -p normalight-model --example estimate_memory
 use burn::tensor::Device;
 use normalight_core::{mean_light_error, normal_error};
-use normalight_model::{EstimateSettings, Estimator, NoopObserver, default_weights};
+use normalight_model::{EstimateInput, EstimateSettings, Estimator, NoopObserver, default_weights};
 use normalight_synth::{Framing, Preset, Renderer};
 use std::error::Error;
 
@@ -16,8 +16,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [light, normal] = default_weights()?;
     let estimator = Estimator::new(&light, &normal, Device::flex())?;
     let settings = EstimateSettings::default();
-    let estimate =
-        pollster::block_on(estimator.estimate(&stack, &mask, None, settings, &mut NoopObserver))?;
+    let estimate = pollster::block_on(estimator.estimate(
+        EstimateInput {
+            stack: &stack,
+            mask: &mask,
+            lights: None,
+        },
+        settings,
+        &mut NoopObserver,
+    ))?;
 
     let lights = mean_light_error(&estimate.lights, &truth.lights)?;
     let normals = normal_error(&estimate.normals, &truth.to_normal_map(), &mask)?;

@@ -1,4 +1,4 @@
-use crate::{LightGenotype, ModelError, NormalGenotype, NormalInput};
+use crate::{CellChoice, LightGenotype, ModelError, NormalGenotype, NormalInput};
 use normalight_core::LightBins;
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +60,8 @@ pub struct CellLight {
     /// Units of the hidden fully connected layer.
     pub hidden: usize,
     /// The cells.
-    pub genotype: LightGenotype,
+    #[serde(default, skip_serializing_if = "CellChoice::is_open")]
+    pub genotype: CellChoice<LightGenotype>,
 }
 
 /// Normal estimation: images and light directions in, unit normals out.
@@ -147,7 +148,8 @@ pub struct CellNormal {
     /// Convolutions between the max over images and the regressor cells: 2 as published, or 1.
     pub fused_convolutions: usize,
     /// The cells.
-    pub genotype: NormalGenotype,
+    #[serde(default, skip_serializing_if = "CellChoice::is_open")]
+    pub genotype: CellChoice<NormalGenotype>,
 }
 
 fn two() -> usize {
@@ -175,7 +177,7 @@ impl LightArchitecture {
         }
     }
 
-    /// Checks ranges and cells.
+    /// Checks ranges, and cells where they are chosen.
     ///
     /// # Errors
     /// [`ModelError::Architecture`].
@@ -213,7 +215,10 @@ impl LightArchitecture {
                     within("stem stride", stride, 1, 2)?;
                 }
                 within("reductions", cells.reductions, 0, 2)?;
-                cells.genotype.validate()
+                cells
+                    .genotype
+                    .chosen()
+                    .map_or(Ok(()), LightGenotype::validate)
             }
         }
     }
@@ -233,7 +238,7 @@ impl NormalArchitecture {
         NormalInput::channels(self.mask_channel)
     }
 
-    /// Checks ranges and cells.
+    /// Checks ranges, and cells where they are chosen.
     ///
     /// # Errors
     /// [`ModelError::Architecture`].
@@ -256,7 +261,10 @@ impl NormalArchitecture {
                 // Features leave at half of the input's size.
                 let fewest = 2 - cells.stem_strides[1];
                 within("reductions", cells.reductions, fewest, 2)?;
-                cells.genotype.validate()
+                cells
+                    .genotype
+                    .chosen()
+                    .map_or(Ok(()), NormalGenotype::validate)
             }
         }
     }

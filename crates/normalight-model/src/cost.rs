@@ -1,11 +1,18 @@
 //! Closed-form parameter and operation counts, written independently of the layers so that tests can compare.
 
-use crate::cell_site::{CellSite, light_cell_sites, normal_cell_sites};
+mod cells;
+mod layers;
+
+pub use cells::operation_cost;
+pub use layers::Cost;
+
+use crate::cell_site::{light_cell_sites, normal_cell_sites};
 use crate::{
-    Cell, LightArchitecture, LightBody, NormalArchitecture, NormalBody, Operation, Upsampling,
+    LightArchitecture, LightBody, LightGenotype, NormalArchitecture, NormalBody, NormalGenotype,
+    Upsampling,
 };
-use std::iter::Sum;
-use std::ops::{Add, Mul};
+use cells::{cell_row, last_channels};
+use layers::{biased, conv, dense};
 
 /// What a network costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +32,7 @@ impl NetworkCost {
     }
 }
 
-/// What a light calibration network costs at its own input size.
+/// What a light calibration network costs at its own input size; cells that are open count nothing.
 pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
     let bins = &architecture.bins;
     let classes = bins.classes();
@@ -47,21 +54,22 @@ pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
         }
         LightBody::Cells(cells) => {
             let c = cells.width;
-            let genotype = &cells.genotype;
+            let chosen = cells.genotype.chosen().map(LightGenotype::cells);
+            let chosen = chosen.as_ref().map_or(&[][..], |cells| cells);
             let [first, second] = cells.stem_strides.map(|stride| stride * stride);
             let stem = area / (first * second);
             let [features, classifier] = light_cell_sites(cells, area);
-            let channels = last_channels(&features, &genotype.cells());
-            let after = last_channels(&classifier, &genotype.cells());
+            let channels = last_channels(&features, chosen);
+            let after = last_channels(&classifier, chosen);
             let stride: usize = cells.stem_strides.iter().product();
             let side = (architecture.input_size / stride).div_ceil(4 << cells.reductions);
             let fused = stem >> (2 * cells.reductions);
             conv(4, 2 * c, area / first)
                 + conv(2 * c, 3 * c, stem)
-                + cell_row(&features, &genotype.cells())
+                + cell_row(&features, chosen)
                 + conv(2 * channels, 4 * c, fused)
                 + conv(4 * c, 3 * c, fused)
-                + cell_row(&classifier, &genotype.cells())
+                + cell_row(&classifier, chosen)
                 + conv(after, 4 * c, side * side)
                 + conv(4 * c, 4 * c, side * side)
                 + dense(4 * c * side * side, cells.hidden)
@@ -76,7 +84,7 @@ pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
     }
 }
 
-/// What a normal estimation network costs for images of that many pixels.
+/// What a normal estimation network costs for images of that many pixels; cells that are open count nothing.
 pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCost {
     let inputs = architecture.input_channels();
     let (per_image, per_stack) = match &architecture.body {
@@ -101,7 +109,8 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
         }
         NormalBody::Cells(cells) => {
             let c = cells.width;
-            let genotype = &cells.genotype;
+            let chosen = cells.genotype.chosen().map(NormalGenotype::cells);
+            let chosen = chosen.as_ref().map_or(&[][..], |cells| cells);
             let [first, second] = cells.stem_strides.map(|stride| stride * stride);
             let stem = area / (first * second);
             let up = |from: usize, to: usize, area: usize| match cells.upsampling {
@@ -112,7 +121,7 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
                 Upsampling::Nearest => conv(from, to, area),
             };
             let [features, regressor] = normal_cell_sites(cells, area);
-            let channels = last_channels(&features, &genotype.cells());
+            let channels = last_channels(&features, chosen);
             let half = area / 4;
             let first_up = match cells.doublings() {
                 0 => conv(channels, 4 * c, half),
@@ -122,13 +131,13 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
             };
             let images = conv(inputs, 2 * c, area / first)
                 + conv(2 * c, 3 * c, stem)
-                + cell_row(&features, &genotype.cells())
+                + cell_row(&features, chosen)
                 + first_up
                 + conv(4 * c, 4 * c, half);
             let fused = conv(4 * c, 4 * c, half) * (cells.fused_convolutions - 1)
                 + conv(4 * c, 3 * c, half)
-                + cell_row(&regressor, &genotype.cells())
-                + up(last_channels(&regressor, &genotype.cells()), 2 * c, area)
+                + cell_row(&regressor, chosen)
+                + up(last_channels(&regressor, chosen), 2 * c, area)
                 + conv(2 * c, 3, area);
             (images, fused)
         }
@@ -137,128 +146,6 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
         parameters: per_image.parameters + per_stack.parameters,
         per_image: per_image.multiply_adds,
         per_stack: per_stack.multiply_adds,
-    }
-}
-
-/// What some layers cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Cost {
-    /// Trainable parameters, batch norm included.
-    pub parameters: usize,
-    /// Multiply-adds of convolutions and fully connected layers.
-    pub multiply_adds: u64,
-}
-
-impl Add for Cost {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            parameters: self.parameters + other.parameters,
-            multiply_adds: self.multiply_adds + other.multiply_adds,
-        }
-    }
-}
-
-impl Mul<usize> for Cost {
-    type Output = Self;
-
-    fn mul(self, count: usize) -> Self {
-        Self {
-            parameters: self.parameters * count,
-            multiply_adds: self.multiply_adds * count as u64,
-        }
-    }
-}
-
-impl Sum for Cost {
-    fn sum<I: Iterator<Item = Self>>(costs: I) -> Self {
-        costs.fold(Self::default(), Self::add)
-    }
-}
-
-/// Channels that a row of cells leaves.
-fn last_channels(row: &[CellSite], cells: &[&Cell]) -> usize {
-    row.last()
-        .map_or(0, |last| cells[last.cell].nodes.len() * last.width)
-}
-
-/// A row of cells on a stem of three times their first width.
-fn cell_row(row: &[CellSite], cells: &[&Cell]) -> Cost {
-    let stem = row.first().map_or(0, |first| 3 * first.width);
-    let (mut before_last, mut last) = (stem, stem);
-    let mut total = Cost::default();
-    for place in row {
-        let nodes = &cells[place.cell].nodes;
-        // Both preprocessings, at the size that comes in: a 1x1 convolution (or two half ones).
-        let area = place.input_area();
-        total = total + pointwise(before_last, place.width, area);
-        total = total + pointwise(last, place.width, area);
-        let edges = nodes
-            .iter()
-            .flatten()
-            .map(|edge| operation_cost(edge.operation, place, edge.from));
-        total = total + edges.sum();
-        (before_last, last) = (last, nodes.len() * place.width);
-    }
-    total
-}
-
-/// What an operation costs on an edge from `from` of a cell that stands there.
-pub fn operation_cost(operation: Operation, place: &CellSite, from: usize) -> Cost {
-    let strided = place.reduces && from < 2;
-    self::operation(operation, place.width, strided, place.area)
-}
-
-fn operation(operation: Operation, width: usize, strided: bool, area: usize) -> Cost {
-    let separable = |kernel: usize| {
-        let depthwise = Cost {
-            parameters: kernel * kernel * width,
-            multiply_adds: (kernel * kernel * width * area) as u64,
-        };
-        (depthwise + pointwise(width, width, area)) * 2
-    };
-    match operation {
-        Operation::Separable1 => separable(1),
-        Operation::Separable3 => separable(3),
-        Operation::Separable5 => separable(5),
-        Operation::Convolution3 => Cost {
-            parameters: 9 * width * width + 2 * width,
-            multiply_adds: (9 * width * width * area) as u64,
-        },
-        Operation::Skip if strided => pointwise(width, width, area),
-        Operation::Skip | Operation::Zero => Cost::default(),
-    }
-}
-
-/// A 1x1 convolution without bias, and batch norm.
-fn pointwise(from: usize, to: usize, area: usize) -> Cost {
-    Cost {
-        parameters: from * to + 2 * to,
-        multiply_adds: (from * to * area) as u64,
-    }
-}
-
-/// A 3x3 convolution with bias and that many output pixels.
-fn conv(from: usize, to: usize, area: usize) -> Cost {
-    Cost {
-        parameters: 9 * from * to + to,
-        multiply_adds: (9 * from * to * area) as u64,
-    }
-}
-
-/// A 1x1 convolution with bias and that many output pixels.
-fn biased(from: usize, to: usize, area: usize) -> Cost {
-    Cost {
-        parameters: from * to + to,
-        multiply_adds: (from * to * area) as u64,
-    }
-}
-
-fn dense(from: usize, to: usize) -> Cost {
-    Cost {
-        parameters: from * to + to,
-        multiply_adds: (from * to) as u64,
     }
 }
 
@@ -289,7 +176,7 @@ mod tests {
                     reductions: 2,
                     upsampling: Upsampling::Nearest,
                     fused_convolutions: 1,
-                    genotype: paper.normal.clone().unwrap(),
+                    genotype: paper.normal.clone().into(),
                 }),
             };
             assert_eq!(normal_cost(&cells, 1024).parameters, expected);
@@ -310,7 +197,7 @@ mod tests {
                 stem_strides: [1, 1],
                 reductions: 2,
                 hidden: 1,
-                genotype: light.clone(),
+                genotype: light.clone().into(),
             };
             let rows = light_cell_sites(&cells, 0).map(|row| cell_row(&row, &light.cells()));
             let count = rows.map(|row| thousands(row.parameters));
@@ -321,7 +208,7 @@ mod tests {
                 reductions: 2,
                 upsampling: Upsampling::Nearest,
                 fused_convolutions: 1,
-                genotype: normal.clone(),
+                genotype: normal.clone().into(),
             };
             let rows = normal_cell_sites(&cells, 0).map(|row| cell_row(&row, &normal.cells()));
             let count = rows.map(|row| thousands(row.parameters));

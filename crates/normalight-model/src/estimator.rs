@@ -8,6 +8,17 @@ use normalight_core::{
     CalibratedStack, Estimate, EstimateSettings, ImageStack, Light, Mask, albedo_map, refit_lights,
 };
 
+/// What an estimate starts from.
+#[derive(Debug, Clone, Copy)]
+pub struct EstimateInput<'a> {
+    /// The photographs.
+    pub stack: &'a ImageStack,
+    /// The object's pixels, of the photographs' size.
+    pub mask: &'a Mask,
+    /// Known lights, one for each photograph; they replace the light network.
+    pub lights: Option<&'a [Light]>,
+}
+
 /// Both networks on a device, ready to go from photographs to lights and normals.
 #[derive(Debug)]
 pub struct Estimator {
@@ -42,19 +53,22 @@ impl Estimator {
         [&self.hashes[0], &self.hashes[1]]
     }
 
-    /// From photographs to lights and normals; `given` lights replace the light network.
+    /// From photographs to lights and normals.
     ///
     /// # Errors
     /// [`ModelError::Core`] for a mask or lights that do not fit, [`ModelError::Cancelled`],
     /// [`ModelError::Device`].
     pub async fn estimate(
         &self,
-        stack: &ImageStack,
-        mask: &Mask,
-        given: Option<&[Light]>,
+        input: EstimateInput<'_>,
         settings: EstimateSettings,
         observer: &mut impl Observer,
     ) -> Result<Estimate, ModelError> {
+        let EstimateInput {
+            stack,
+            mask,
+            lights: given,
+        } = input;
         stack.check_mask(mask, "mask")?;
         let mut lights = match given {
             Some(lights) => lights.to_vec(),

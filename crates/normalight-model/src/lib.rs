@@ -7,7 +7,7 @@
 //! use burn::tensor::Device;
 //! use normalight_core::{ImageStack, Mask};
 //! use normalight_model::{
-//!     EstimateSettings, Estimator, ModelError, NoopObserver, default_weights,
+//!     EstimateInput, EstimateSettings, Estimator, ModelError, NoopObserver, default_weights,
 //! };
 //!
 //! fn estimate(stack: &ImageStack, mask: &Mask) -> Result<(), ModelError> {
@@ -15,7 +15,8 @@
 //!     let estimator = Estimator::new(&light, &normal, Device::flex())?;
 //!     let settings = EstimateSettings::default();
 //!     let mut observer = NoopObserver;
-//!     let running = estimator.estimate(stack, mask, None, settings, &mut observer);
+//!     let input = EstimateInput { stack, mask, lights: None };
+//!     let running = estimator.estimate(input, settings, &mut observer);
 //!     let estimate = pollster::block_on(running)?;
 //!     println!("{:?}", estimate.lights);
 //!     Ok(())
@@ -39,6 +40,7 @@
 mod architecture;
 mod auxiliary_tower;
 mod cell;
+mod cell_choice;
 mod cell_site;
 mod cost;
 mod defaults;
@@ -66,11 +68,12 @@ pub use architecture::{
     NormalBody, PlainLight, PlainNormal, Upsampling,
 };
 pub use auxiliary_tower::AuxiliaryTower;
+pub use cell_choice::CellChoice;
 pub use cell_site::{CellSite, light_cell_sites, normal_cell_sites};
 pub use cost::{Cost, NetworkCost, light_cost, normal_cost, operation_cost};
 pub use defaults::{default_weights, paper_genotypes};
 pub use error::ModelError;
-pub use estimator::Estimator;
+pub use estimator::{EstimateInput, Estimator};
 pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
 pub use input::{LightInput, NormalInput};
 pub use light_network::LightNetwork;

@@ -76,7 +76,7 @@ impl LightNetwork {
         let layers = match &architecture.body {
             LightBody::Plain(plain) => plain_layers(plain, architecture.input_size, device),
             LightBody::Cells(cells) => {
-                let plans = cells.genotype.cells().map(CellPlan::Chosen);
+                let plans = cells.genotype.required()?.cells().map(CellPlan::Chosen);
                 let form = if folded { Form::Folded } else { Form::Affine };
                 cell_layers(cells, plans, architecture.input_size, form, device)
             }

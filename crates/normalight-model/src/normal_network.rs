@@ -100,7 +100,7 @@ impl NormalNetwork {
         let body = match &architecture.body {
             NormalBody::Plain(plain) => Body::Plain(PlainBody::new(plain, channels, device)),
             NormalBody::Cells(cells) => {
-                let plans = cells.genotype.cells().map(CellPlan::Chosen);
+                let plans = cells.genotype.required()?.cells().map(CellPlan::Chosen);
                 let form = if folded { Form::Folded } else { Form::Affine };
                 Body::Cells(CellBody::new(cells, plans, channels, form, device))
             }

@@ -1,4 +1,5 @@
 //! Networks against closed forms and against an independent backend.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::module::Module;
 use burn::tensor::{Device, Distribution, Tensor};
@@ -6,9 +7,9 @@ use normalight_core::{
     Decoding, ImageStack, Mask, Samples, StackImage, Transfer, Vec3, mean_light_error, normal_error,
 };
 use normalight_model::{
-    CellLight, CellNormal, EstimateSettings, Estimator, LightArchitecture, LightBody, LightNetwork,
-    ModelError, NoopObserver, NormalArchitecture, NormalBody, NormalNetwork, PlainNormal,
-    Upsampling, Weights, light_cost, normal_cost, paper_genotypes,
+    CellLight, CellNormal, EstimateInput, EstimateSettings, Estimator, LightArchitecture,
+    LightBody, LightNetwork, ModelError, NoopObserver, NormalArchitecture, NormalBody,
+    NormalNetwork, PlainNormal, Upsampling, Weights, light_cost, normal_cost, paper_genotypes,
 };
 use std::collections::BTreeMap;
 
@@ -19,7 +20,7 @@ fn paper_light() -> LightArchitecture {
             stem_strides: [1, 2],
             reductions: 2,
             hidden: 32,
-            genotype: paper_genotypes().light.unwrap(),
+            genotype: paper_genotypes().light.into(),
         }),
         ..LightArchitecture::plain()
     }
@@ -34,7 +35,7 @@ fn paper_normal(upsampling: Upsampling, stem_strides: [usize; 2]) -> NormalArchi
             reductions: 2,
             upsampling,
             fused_convolutions: stem_strides[1],
-            genotype: paper_genotypes().normal.unwrap(),
+            genotype: paper_genotypes().normal.into(),
         }),
     }
 }
@@ -241,7 +242,15 @@ fn both_backends_give_one_answer() {
     let run = |device: Device| {
         let estimator = Estimator::new(&light, &normal, device).unwrap();
         let mut observer = NoopObserver;
-        let estimate = estimator.estimate(&stack, &mask, None, settings, &mut observer);
+        let estimate = estimator.estimate(
+            EstimateInput {
+                stack: &stack,
+                mask: &mask,
+                lights: None,
+            },
+            settings,
+            &mut observer,
+        );
         pollster::block_on(estimate).unwrap()
     };
     #[expect(

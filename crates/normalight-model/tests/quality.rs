@@ -1,4 +1,5 @@
 //! Averages over views, against turned photographs and against the bare network.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{
@@ -6,7 +7,7 @@ use normalight_core::{
     Transfer, Vec3,
 };
 use normalight_model::{
-    EstimateSettings, Estimator, LightArchitecture, LightNetwork, LoadedNetwork,
+    EstimateInput, EstimateSettings, Estimator, LightArchitecture, LightNetwork, LoadedNetwork,
     LoadedNormalNetwork, ModelError, NoopObserver, NormalArchitecture, NormalNetwork, Observer,
     PipelineStage, Progress, Quality, Weights,
 };
@@ -318,7 +319,15 @@ fn mirrored_photographs_give_mirrored_lights() {
         };
         let [one, two] = [scene.clone(), scene.turned(mirror)].map(|scene| {
             let (stack, mask, mut quiet) = (scene.stack(), scene.mask(), NoopObserver);
-            let found = estimator.estimate(&stack, &mask, None, settings, &mut quiet);
+            let found = estimator.estimate(
+                EstimateInput {
+                    stack: &stack,
+                    mask: &mask,
+                    lights: None,
+                },
+                settings,
+                &mut quiet,
+            );
             pollster::block_on(found).unwrap().lights
         });
         let pairs = one.iter().zip(&two);

@@ -1,4 +1,5 @@
 //! Relaxed networks against the networks that are derived from them.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::module::{Module, ModuleMapper, Param};
 use burn::tensor::{Device, Distribution, Tensor, TensorData};
@@ -16,7 +17,7 @@ fn architecture(reductions: usize, genotype: NormalGenotype) -> NormalArchitectu
             reductions,
             upsampling: Upsampling::Nearest,
             fused_convolutions: 1,
-            genotype,
+            genotype: genotype.into(),
         }),
     }
 }
@@ -172,7 +173,7 @@ fn expected_cost_of_a_choice_is_its_cost() {
             let NormalBody::Cells(mut cells) = architecture.body.clone() else {
                 unreachable!()
             };
-            cells.genotype = genotype(operation);
+            cells.genotype = genotype(operation).into();
             let body = NormalBody::Cells(cells);
             let architecture = NormalArchitecture {
                 mask_channel: false,

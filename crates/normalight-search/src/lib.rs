@@ -13,6 +13,7 @@ mod random;
 mod recipe;
 mod run;
 mod samples;
+#[cfg(feature = "bench")]
 mod speed;
 mod task;
 
@@ -23,5 +24,6 @@ pub use compare::{
 pub use random::random_genotypes;
 pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};
 pub use run::{SearchRun, derive_again, search};
+#[cfg(feature = "bench")]
 pub use speed::SearchStep;
 use task::SearchTask;

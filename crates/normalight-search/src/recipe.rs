@@ -1,7 +1,7 @@
 use super::Budget;
 use normalight_model::{Operation, SearchSpace};
 use normalight_run::{Decay, OptimiserRecipe, RunError, Schedule, check, read_text};
-use normalight_train::{TrainError, TrainRecipe, read_table, take_out};
+use normalight_train::{TrainError, TrainRecipe, read_table};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -210,7 +210,6 @@ impl SearchRecipe {
             })
         };
         let mut table = toml::Table::try_from(&self.training).map_err(failed)?;
-        take_out(&mut table);
         let search = toml::Value::try_from(&self.search).map_err(failed)?;
         table.insert("search".into(), search);
         toml::to_string(&table).map_err(failed)

@@ -1,4 +1,5 @@
 //! Searches from recipe to genotype, on tiny relaxed networks.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 /// Tiny trainings, as the training's own tests have them.
 #[path = "../../normalight-train/tests/common/mod.rs"]
 mod common;

@@ -9,8 +9,8 @@ use normalight_core::{
     intensity_error, mean_light_error, normal_error, refit_lights,
 };
 use normalight_model::{
-    EstimateSettings, Estimator, LightOptions, NoopObserver, PipelineStage, Quality, Weights,
-    default_weights,
+    EstimateInput, EstimateSettings, Estimator, LightOptions, NoopObserver, PipelineStage, Quality,
+    Weights, default_weights,
 };
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::error::Error;
@@ -73,7 +73,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         for number in FIRST..FIRST + objects {
             let sample = object(number);
             let (stack, mask, mut quiet) = (sample.to_stack()?, sample.to_mask(), NoopObserver);
-            let estimate = estimator.estimate(&stack, &mask, None, settings, &mut quiet);
+            let input = EstimateInput {
+                stack: &stack,
+                mask: &mask,
+                lights: None,
+            };
+            let estimate = estimator.estimate(input, settings, &mut quiet);
             let found = pollster::block_on(estimate)?;
             let normals = normal_error(&found.normals, &sample.to_normal_map(), &mask)?;
             degrees[0] += normals.mean.to_degrees() / objects as f32;

@@ -19,6 +19,7 @@ mod recipe;
 mod run;
 mod samples;
 mod source;
+#[cfg(feature = "bench")]
 mod speed;
 mod task;
 
@@ -31,10 +32,11 @@ pub use normal_task::{NormalTask, NormalTraining};
 pub use predicted::Predictor;
 pub use recipe::{
     CacheRecipe, LightMix, LightSettings, Network, NetworkRecipe, NormalSettings, PublishedChoice,
-    PublishedRecipe, TrainRecipe, read_table, take_out,
+    PublishedRecipe, TrainRecipe, read_table,
 };
 pub use run::{Devices, FREE, TrainRun, threads, train};
 pub use samples::{SampleMaker, first_scene};
 pub use source::Source;
+#[cfg(feature = "bench")]
 pub use speed::{OptimiserStep, SampleSource};
 pub use task::Task;

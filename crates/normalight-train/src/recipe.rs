@@ -7,7 +7,7 @@ mod sources;
 mod stored;
 
 pub(crate) use check::MOST_GIGABYTES;
-pub use genotype::{read_table, take_out};
+pub use genotype::read_table;
 pub use network::{Network, NetworkRecipe};
 pub use networks::{LightMix, LightSettings, NormalSettings};
 pub use sources::{CacheRecipe, PublishedChoice, PublishedRecipe};
@@ -76,8 +76,7 @@ impl TrainRecipe {
         Self::parse_in(Path::new(""), file, text)
     }
 
-    /// [`Self::read`] for a recipe of a network whose cells are yet to be chosen: where the architecture has cells and no
-    /// `genotype`, some stand in for them.
+    /// [`Self::read`] for a recipe of a network whose cells are yet to be chosen; those it has are left out.
     ///
     /// # Errors
     /// As of [`Self::read`].
@@ -95,13 +94,24 @@ impl TrainRecipe {
         // From the text, for errors that show the line.
         let recipe: Self = toml::from_str(text).map_err(|error| genotype::failed(file, &error))?;
         recipe.validate()?;
+        if recipe.network.has_open_cells() {
+            let reason = "the body of the architecture lacks `genotype`, expected its cells or a file of them";
+            return Err(TrainError::Run(RunError::Recipe {
+                file: file.to_owned(),
+                reason: reason.to_owned(),
+            }));
+        }
         Ok(recipe)
     }
 
-    /// A recipe that may lack its cells, see [`Self::read_without_cells`].
-    pub fn from_open_table(file: &str, mut table: toml::Table) -> Result<Self, TrainError> {
-        genotype::fill_in(&mut table);
-        Self::from_table(file, table)
+    /// A checked recipe whose cells are open, see [`Self::read_without_cells`].
+    ///
+    /// # Errors
+    /// [`RunError::Recipe`] or [`RunError::Value`].
+    pub fn from_open_table(file: &str, table: toml::Table) -> Result<Self, TrainError> {
+        let mut recipe = Self::from_table(file, table)?;
+        recipe.network.open_cells();
+        Ok(recipe)
     }
 
     fn from_table(file: &str, table: toml::Table) -> Result<Self, TrainError> {
@@ -201,6 +211,13 @@ mod tests {
             let error = TrainRecipe::parse("r.toml", &format!("{GOOD}{text}")).unwrap_err();
             assert!(error.to_string().contains(part), "{error}");
         }
+        let cells = "[normal.architecture]\nmask_channel = false\n[normal.architecture.body]\nkind = \"cells\"\n\
+                     width = 8\nstem_strides = [1, 2]\nupsampling = \"nearest\"\nfused_convolutions = 1\n";
+        let text = format!("{GOOD}{cells}");
+        let error = TrainRecipe::parse("r.toml", &text).unwrap_err();
+        assert!(error.to_string().contains("lacks `genotype`"), "{error}");
+        let open = TrainRecipe::from_open_table("r.toml", read_table("r.toml", &text).unwrap());
+        assert!(open.unwrap().network.has_open_cells());
         let light = GOOD.replace("normal", "light");
         let error = TrainRecipe::parse("r.toml", &light).unwrap_err();
         assert!(error.to_string().contains("size is 32"), "{error}");

@@ -52,8 +52,7 @@ impl<T: Task> SampleMaker<T> {
 
     fn scene(&self, number: u64, images: usize) -> Result<Scene, TrainError> {
         let recipe = &self.recipe;
-        self.source
-            .scene(recipe, number, images, recipe.size, T::FRAMING)
+        self.source.scene(recipe, number, images, T::FRAMING)
     }
 
     /// Sample `k` of a step, and the lights that a network predicts for it.

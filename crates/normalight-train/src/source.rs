@@ -1,7 +1,7 @@
 use crate::cache::SceneCache;
 use crate::{PublishedChoice, PublishedRecipe, TrainError, TrainRecipe};
 use normalight_io::{PublishedEntry, PublishedSet, PublishedSplit};
-use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene, scrambled};
+use normalight_synth::{Framing, Labelled, Renderer, Sample, Scene, SceneRecipe, scrambled};
 
 /// Numbers of validation objects start here, far from any training object.
 const VALIDATION_NUMBERS: u64 = 1 << 40;
@@ -36,6 +36,8 @@ pub struct Published {
     set: PublishedSet,
     split: PublishedSplit,
     part: PublishedChoice,
+    /// How its photographs become samples.
+    scene: SceneRecipe,
     /// Whether samples come from the split's validation part.
     second_half: bool,
 }
@@ -84,15 +86,15 @@ impl Source {
         Ok([half(one, 0)?, half(other, SECOND_HALF_NUMBERS)?])
     }
 
-    /// Scene `number`, fit for samples of up to `images` images and `size` pixels.
+    /// Scene `number`, fit for samples of up to `images` images and of the recipe's size.
     pub fn scene(
         &self,
         recipe: &TrainRecipe,
         number: u64,
         images: usize,
-        size: usize,
         framing: Framing,
     ) -> Result<Scene, TrainError> {
+        let size = recipe.size;
         match self {
             Self::Rendered(rendered) => {
                 let (renderer, number) = (&rendered.renderer, rendered.first + number);
@@ -110,7 +112,7 @@ impl Source {
                     &split.train
                 };
                 let entry = &entries[(scrambled(number) >> 8) as usize % entries.len()];
-                published.scene(recipe, entry, number, size, framing)
+                published.scene(entry, number, size, framing)
             }
         }
     }
@@ -138,7 +140,7 @@ impl Source {
                 numbers
                     .zip(entries)
                     .map(|(number, entry)| {
-                        let scene = published.scene(recipe, entry, number, pixels, whole)?;
+                        let scene = published.scene(entry, number, pixels, whole)?;
                         Ok(scene.whole(VALIDATION_IMAGES))
                     })
                     .collect()
@@ -162,13 +164,13 @@ impl Published {
             set,
             split,
             part: published.part,
+            scene: recipe.scene.clone(),
             second_half,
         })
     }
 
     fn scene(
         &self,
-        recipe: &TrainRecipe,
         entry: &PublishedEntry,
         seed: u64,
         size: usize,
@@ -188,11 +190,6 @@ impl Published {
             normals: &object.normals,
             lights: &object.lights,
         };
-        Ok(Scene::from_photographs(
-            &recipe.scene,
-            seed,
-            labelled,
-            crop,
-        )?)
+        Ok(Scene::from_photographs(&self.scene, seed, labelled, crop)?)
     }
 }

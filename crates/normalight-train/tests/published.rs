@@ -1,4 +1,5 @@
 //! Training on sets in the layout of Blobby and Sculpture.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::tensor::Device;
 use normalight_io::{ObjectToPublish, PublishedEntry, PublishedPart, PublishedWriter};

@@ -1,4 +1,5 @@
 //! A run that was stopped goes on exactly where it was.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::*;

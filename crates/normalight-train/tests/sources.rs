@@ -1,4 +1,5 @@
 //! Where samples, lights and first weights come from.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::*;

@@ -1,4 +1,5 @@
 //! Training on the GPU's code: a driver that imitates a GPU takes the same steps as the CPU.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::tensor::{Device, DeviceKind};
 use normalight_run::RunEvent;

@@ -6,7 +6,7 @@ use crate::result::{Estimated, Run};
 use crate::settings::Settings;
 use burn::tensor::Device;
 use normalight_io::{NamedBytes, RunDescription, read_stack};
-use normalight_model::{Estimator, default_weights};
+use normalight_model::{EstimateInput, Estimator, default_weights};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
@@ -76,9 +76,11 @@ impl Engine {
         let estimate = self
             .estimator
             .estimate(
-                &input.stack,
-                &input.mask,
-                given.as_deref(),
+                EstimateInput {
+                    stack: &input.stack,
+                    mask: &input.mask,
+                    lights: given.as_deref(),
+                },
                 settings.estimating(),
                 &mut observer,
             )

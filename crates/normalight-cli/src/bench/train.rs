@@ -8,7 +8,7 @@ use crate::args::BenchTrainArgs;
 use crate::interrupt;
 use anyhow::{Context, Result};
 use burn::tensor::{Device, Tensor};
-use networks::Case;
+use networks::{Case, Conditions};
 use operations::OperationCase;
 use serde::Serialize;
 use std::time::{Duration, Instant};
@@ -87,15 +87,19 @@ fn measure(
         threads,
         gflops: matmul,
     });
+    let conditions = Conditions {
+        threads,
+        matmul,
+        least,
+        data_ms,
+    };
     for network in networks::all()? {
         if interrupt::asked() {
             return Ok(false);
         }
         let wanted = args.only.is_empty() || args.only.iter().any(|name| name == network.name);
         if wanted {
-            report
-                .cases
-                .push(network.measure(&device, threads, matmul, least, data_ms)?);
+            report.cases.push(network.measure(&device, &conditions)?);
         }
     }
     if args.ops {

@@ -1,10 +1,12 @@
 //! A small rendered stack in files, and the command under test.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![allow(dead_code)]
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, Rgb};
 use normalight_core::Samples;
 use normalight_synth::{BitDepth, Framing, Renderer, Sample, SceneRecipe};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use tempfile::TempDir;
 
 /// Images of the stack.
 pub const IMAGES: usize = 8;
@@ -81,6 +83,14 @@ pub fn files(folder: &Path) -> Vec<String> {
 pub fn sample() -> Sample {
     let renderer = Renderer::new(SceneRecipe::default()).unwrap();
     renderer.sample(7, IMAGES, SIZE, Framing::WholeObject)
+}
+
+/// A folder with the stack, and where results go.
+pub fn prepared() -> (TempDir, PathBuf, PathBuf) {
+    let place = tempfile::tempdir().unwrap();
+    let (photographs, out) = (place.path().join("vase"), place.path().join("out/deep"));
+    write_stack(&photographs, &sample());
+    (place, photographs, out)
 }
 
 /// Writes the photographs as 16-bit PNG, and the mask.

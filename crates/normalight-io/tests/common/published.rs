@@ -1,4 +1,5 @@
 //! A small object to write and read as part of a set.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 use normalight_core::{Light, Mask, NormalMap, Samples, StackImage, Transfer, Vec3};
 use normalight_io::{ObjectToPublish, PublishedEntry, decode_image};
 use std::path::{Path, PathBuf};

@@ -3,7 +3,7 @@ use super::{Comparison, Equal};
 use normalight_io::write_files;
 use normalight_run::RunError;
 use normalight_run::differences;
-use normalight_train::{TrainError, TrainRecipe, take_out};
+use normalight_train::{TrainError, TrainRecipe};
 use serde::{Serialize, de::DeserializeOwned};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -32,13 +32,13 @@ pub(super) fn common_text(
         multiply_adds: u64,
     }
     // These change no result, or are chosen for each training.
-    let common = TrainRecipe {
+    let mut common = TrainRecipe {
         loader_threads: None,
         seed: 0,
         ..recipe.clone()
     };
+    common.network.open_cells();
     let mut table = toml::Table::try_from(common).map_err(failed)?;
-    take_out(&mut table);
     let compare = toml::Value::try_from(Table {
         equal,
         multiply_adds,

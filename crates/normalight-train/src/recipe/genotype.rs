@@ -1,7 +1,6 @@
 use crate::TrainError;
-use normalight_model::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
+use normalight_model::Genotypes;
 use normalight_run::{RunError, read_text};
-use serde::Serialize;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -46,45 +45,6 @@ pub(super) fn read_genotypes(recipe: &mut Table, folder: &Path) -> Result<bool, 
         }
     }
     Ok(found)
-}
-
-/// Gives architectures with cells that lack a `genotype` one to stand in.
-pub(super) fn fill_in(recipe: &mut Table) {
-    let edge = |from| Edge {
-        operation: Operation::Skip,
-        from,
-    };
-    let cell = Cell {
-        nodes: vec![[edge(0), edge(1)]; 4],
-    };
-    for network in NETWORKS {
-        let Some(body) = body(recipe, network) else {
-            continue;
-        };
-        if body.get("kind").and_then(Value::as_str) == Some("cells")
-            && !body.contains_key("genotype")
-        {
-            let cell = || cell.clone();
-            let genotype = match network {
-                "light" => value(&LightGenotype::from_cells([cell(), cell(), cell(), cell()])),
-                _ => value(&NormalGenotype::from_cells([cell(), cell(), cell()])),
-            };
-            body.extend(genotype.map(|genotype| ("genotype".to_owned(), genotype)));
-        }
-    }
-}
-
-/// Takes all cells out of a recipe.
-pub fn take_out(recipe: &mut Table) {
-    for network in NETWORKS {
-        if let Some(body) = body(recipe, network) {
-            body.remove("genotype");
-        }
-    }
-}
-
-fn value<T: Serialize>(genotype: &T) -> Option<Value> {
-    Value::try_from(genotype).ok()
 }
 
 fn read(path: &Path, network: &str) -> Result<Value, TrainError> {

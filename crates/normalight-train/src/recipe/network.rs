@@ -2,8 +2,8 @@
 use super::{LightSettings, NormalSettings};
 use crate::TrainError;
 use normalight_model::{
-    CellSite, Genotypes, LightBody, NormalBody, light_cell_sites, light_cost, normal_cell_sites,
-    normal_cost,
+    CellChoice, CellSite, Genotypes, LightBody, NormalBody, light_cell_sites, light_cost,
+    normal_cell_sites, normal_cost,
 };
 use normalight_run::RunError;
 use serde::{Deserialize, Serialize};
@@ -123,17 +123,47 @@ impl NetworkRecipe {
         match self {
             Self::Light(settings) => match (&mut settings.architecture.body, &genotypes.light) {
                 (LightBody::Cells(cells), Some(genotype)) => {
-                    cells.genotype = genotype.clone();
+                    cells.genotype = genotype.clone().into();
                     true
                 }
                 _ => false,
             },
             Self::Normal(settings) => match (&mut settings.architecture.body, &genotypes.normal) {
                 (NormalBody::Cells(cells), Some(genotype)) => {
-                    cells.genotype = genotype.clone();
+                    cells.genotype = genotype.clone().into();
                     true
                 }
                 _ => false,
+            },
+        }
+    }
+
+    /// Forgets the cells of a network of cells: a search finds them, or a comparison brings its own.
+    pub fn open_cells(&mut self) {
+        match self {
+            Self::Light(settings) => {
+                if let LightBody::Cells(cells) = &mut settings.architecture.body {
+                    cells.genotype = CellChoice::Open;
+                }
+            }
+            Self::Normal(settings) => {
+                if let NormalBody::Cells(cells) = &mut settings.architecture.body {
+                    cells.genotype = CellChoice::Open;
+                }
+            }
+        }
+    }
+
+    /// Whether it is a network of cells that are yet to be chosen.
+    pub fn has_open_cells(&self) -> bool {
+        match self {
+            Self::Light(settings) => match &settings.architecture.body {
+                LightBody::Cells(cells) => cells.genotype.is_open(),
+                LightBody::Plain(_) => false,
+            },
+            Self::Normal(settings) => match &settings.architecture.body {
+                NormalBody::Cells(cells) => cells.genotype.is_open(),
+                NormalBody::Plain(_) => false,
             },
         }
     }

@@ -1,4 +1,5 @@
 //! Tiny runs.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![allow(dead_code)]
 use burn::tensor::Device;
 use normalight_run::{RunEvent, Summary};

@@ -62,7 +62,7 @@ pub(super) fn all() -> Result<Vec<Candidate>> {
             reductions: 2,
             upsampling: Upsampling::Nearest,
             fused_convolutions: 1,
-            genotype: genotype.clone(),
+            genotype: genotype.clone().into(),
         })
     };
     let candidate = |name, body| Candidate {
@@ -92,15 +92,25 @@ pub(super) fn data_ms() -> Result<f64> {
     Ok(1e3 * start.elapsed().as_secs_f64() / samples as f64)
 }
 
+/// What holds for all networks that are measured together.
+pub(super) struct Conditions {
+    pub(super) threads: usize,
+    /// GFLOP/s of Burn's matrix product.
+    pub(super) matmul: f64,
+    /// Time for each case, at least.
+    pub(super) least: Duration,
+    /// Milliseconds of one thread for a sample.
+    pub(super) data_ms: f64,
+}
+
 impl Candidate {
-    pub(super) fn measure(
-        &self,
-        device: &Device,
-        threads: usize,
-        matmul: f64,
-        least: Duration,
-        data_ms: f64,
-    ) -> Result<Case> {
+    pub(super) fn measure(&self, device: &Device, conditions: &Conditions) -> Result<Case> {
+        let &Conditions {
+            threads,
+            matmul,
+            least,
+            data_ms,
+        } = conditions;
         let device = device.clone().autodiff();
         let network = NormalNetwork::new(&self.architecture, false, &device)?;
         let channels = self.architecture.input_channels();
