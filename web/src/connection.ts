@@ -7,7 +7,9 @@ const GRACE = 2000;
 /** Who follows a task. */
 export interface Follow {
   readonly signal?: AbortSignal | undefined;
-  readonly onEvent?: ((event: Extract<FromWorker, { fraction: number }>) => void) | undefined;
+  readonly onEvent?:
+    | ((event: Extract<FromWorker, { event: "load" | "progress" | "plan" }>) => void)
+    | undefined;
 }
 
 interface Pending extends Follow {
@@ -82,6 +84,7 @@ export class Connection {
     switch (message.event) {
       case "load":
       case "progress":
+      case "plan":
         pending?.onEvent?.(message);
         break;
       case "done":

@@ -51,7 +51,7 @@ export class Normalight {
    * @throws NormalightError, or the signal's reason when it was cancelled
    */
   estimate(files: Iterable<StackFile>, options: EstimateOptions = {}): Promise<Estimate> {
-    const { mask = "auto", lights, signal, onProgress } = options;
+    const { mask = "auto", lights, signal, onProgress, onPlan } = options;
     const { quality = "default", refit = true } = options;
     const aggregate = new Aggregate(quality, refit && lights === undefined);
     return this.#run(
@@ -64,6 +64,7 @@ export class Normalight {
           color: options.color ?? "auto",
           mask: mask === "none" ? "none" : "auto",
           images: options.images,
+          lightAxes: options.lightAxes ?? "x-right,y-up,z-out",
           normalFormat: options.normalFormat ?? "opengl",
           refit,
           quality,
@@ -73,6 +74,7 @@ export class Normalight {
         signal,
         onEvent(event) {
           if (event.event === "progress") onProgress?.(aggregate.at(event.stage, event.fraction));
+          else if (event.event === "plan") onPlan?.(event.plan, event.words);
         },
       },
     );

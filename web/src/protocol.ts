@@ -4,6 +4,7 @@ import type {
   DeviceChoice,
   DeviceReport,
   Estimate,
+  InputPlan,
   Plan,
   StackFile,
   Stage,
@@ -38,6 +39,7 @@ export type ToWorker =
 export type FromWorker =
   | { event: "load"; fraction: number }
   | { event: "progress"; stage: Stage; fraction: number }
+  | { event: "plan"; plan: InputPlan; words: string[] }
   | { event: "done"; response: Tasks[TaskName]["response"] }
   | { event: "failed"; kind: FailureKind; message: string }
   | { event: "crashed"; message: string };

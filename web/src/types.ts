@@ -1,4 +1,4 @@
-import type { ColorMode, NormalFormat, Quality, Stage } from "./generated.js";
+import type { ColorMode, InputPlan, NormalFormat, Quality, Stage } from "./generated.js";
 
 // What crosses into the module and back has one definition, in Rust; here is what only TypeScript knows.
 export type {
@@ -76,6 +76,11 @@ export interface EstimateOptions {
   readonly mask?: "auto" | "none" | StackFile;
   /** Known lights (`lights.csv`, `.lp`, or lines of `x y z`) instead of estimated ones. */
   readonly lights?: StackFile;
+  /**
+   * Which way the axes of a light file point, each right, left, up, down, out (to the camera) or in: as in
+   * `x-right,y-down,z-in`; `x-right,y-up,z-out` when left out.
+   */
+  readonly lightAxes?: string;
   /** Use only this many images, evenly spaced. */
   readonly images?: number;
   /** Which way green points in `normals.png` and the preview; `opengl` (up) when left out. */
@@ -86,6 +91,11 @@ export interface EstimateOptions {
   readonly quality?: Quality;
   /** Cancels: the promise then rejects with the signal's reason. */
   readonly signal?: AbortSignal;
+  /**
+   * Hears what was decided about the files before anything is computed: typed, and in lines for people. Lines that begin
+   * with `notice:` tell what is doubtful.
+   */
+  readonly onPlan?: (plan: InputPlan, words: readonly string[]) => void;
   /** Hears of progress. */
   readonly onProgress?: (progress: Progress) => void;
 }

@@ -84,6 +84,9 @@ async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["e
       await yieldToEvents();
       return !cancelled;
     },
+    plan(plan, words) {
+      tell({ event: "plan", plan, words });
+    },
   });
 }
 

@@ -43,6 +43,21 @@ export function say(element: HTMLElement, words: string): void {
   element.textContent = words;
 }
 
+/** What begins a line about something doubtful. */
+const NOTICE = /^notice: /;
+
+/** Shows lines in a list, which is hidden while there are none; what is doubtful stands out. */
+export function sayLines(list: HTMLElement, lines: readonly string[]): void {
+  list.hidden = lines.length === 0;
+  const item = (line: string) => make("li", NOTICE.test(line) ? "doubtful" : "", line.replace(NOTICE, ""));
+  list.replaceChildren(...lines.map(item));
+}
+
+/** The lines about what is doubtful. */
+export function doubtful(lines: readonly string[]): string[] {
+  return lines.filter((line) => NOTICE.test(line));
+}
+
 /** What a failure says to people. */
 export function wordsOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);

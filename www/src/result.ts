@@ -1,5 +1,5 @@
 import type { Estimate, Light } from "normalight";
-import { byId, make, paint } from "./dom.js";
+import { byId, make, paint, sayLines } from "./dom.js";
 import { showDownloads } from "./downloads.js";
 import { Relight } from "./relight.js";
 import { total } from "./run.js";
@@ -18,6 +18,7 @@ export class ResultView {
     showLightMap(estimate);
     this.#showLights(estimate.lights);
     showFacts(estimate);
+    sayLines(byId("plan"), estimate.planWords);
     showSeconds(estimate);
     showDownloads(estimate);
     byId("result-title").focus({ preventScroll: true });

@@ -1,5 +1,5 @@
 import type { Estimate, Progress } from "normalight";
-import { byId, say, wordsOf } from "./dom.js";
+import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { ProgressView } from "./progress.js";
 import type { Settings } from "./settings.js";
@@ -11,6 +11,7 @@ export class Run {
   readonly #cancel = byId<HTMLButtonElement>("cancel");
   readonly #problem = byId("run-problem");
   readonly #status = byId("status");
+  readonly #notices = byId("notices");
   readonly #progress = new ProgressView();
   #running: AbortController | undefined;
 
@@ -43,6 +44,7 @@ export class Run {
     this.#start.disabled = this.stack.files.length === 0;
     say(this.#problem, "");
     say(this.#status, "");
+    sayLines(this.#notices, []);
   }
 
   async #run(): Promise<void> {
@@ -52,6 +54,7 @@ export class Run {
     this.#show(true);
     say(this.#problem, "");
     say(this.#status, "");
+    sayLines(this.#notices, []);
     const estimate = await this.#estimate(running.signal);
     this.#running = undefined;
     this.#show(false);
@@ -65,6 +68,7 @@ export class Run {
       ...this.settings.options,
       signal,
       onProgress: (progress: Progress) => this.#progress.show(progress),
+      onPlan: (_: unknown, words: readonly string[]) => sayLines(this.#notices, doubtful(words)),
     };
     try {
       const estimate = await this.engine.with((normalight) => normalight.estimate(this.stack.files, options));

@@ -48,6 +48,7 @@ export class Settings {
     form.addEventListener("change", ({ target }) => {
       const name = target instanceof HTMLInputElement ? target.name : "";
       if (name === "color") this.#ownColor = undefined;
+      byId("light-axes").hidden = chosen(form, "lights") !== "file";
       if (name === "device" || name === "color") changed[name]();
     });
   }
@@ -87,7 +88,7 @@ export class Settings {
     return {
       color: this.color,
       mask: this.#mask.file ?? (wholeFrame ? "none" : "auto"),
-      ...(lights ? { lights } : {}),
+      ...(lights ? { lights, lightAxes: chosen(this.#form, "light-axes") } : {}),
       ...(images === "all" ? {} : { images: Number(images) }),
       quality: chosen(this.#form, "quality") as Quality,
       normalFormat: chosen(this.#form, "normal-format") as "opengl" | "directx",

@@ -1,9 +1,12 @@
 import type { ColorMode, Plan } from "normalight";
-import { byId, make, paint, say, wordsOf } from "./dom.js";
+import { byId, make, paint, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 
 /** Longer side of a thumbnail in pixels. */
 const SIDE = 144;
+
+/** The plan of no files. */
+const NOTHING: Plan = { images: [], leftOut: [], notices: [], words: [] };
 
 /** One file of the stack and its tile. */
 interface Entry {
@@ -22,7 +25,7 @@ export class Stack {
   readonly #list = byId("thumbnails");
   readonly #problems = byId("file-problems");
   #entries: Entry[] = [];
-  #plan: Plan = { images: [] };
+  #plan: Plan = NOTHING;
   /** What is wrong with the files as a whole. */
   #problem = "";
   /** Ends the looking at files that are no longer asked for. */
@@ -88,7 +91,7 @@ export class Stack {
       }
     } catch (error) {
       if (signal.aborted) return;
-      this.#plan = { images: [] };
+      this.#plan = NOTHING;
       this.#problem = wordsOf(error);
       this.#show();
     }
@@ -121,6 +124,7 @@ export class Stack {
     byId("stack").hidden = this.#entries.length === 0;
     byId("drop").classList.toggle("small", this.#entries.length > 0);
     byId("stack-words").textContent = this.#words();
+    sayLines(byId("stack-notes"), this.#plan.words);
     const bad = shown.flatMap(({ problem }) => problem ?? []);
     this.#problems.hidden = bad.length === 0 && !this.#problem;
     if (this.#problem) say(this.#problems, this.#problem);

@@ -163,9 +163,16 @@ pub struct LightsDecision {
     pub matched: NameMatch,
 }
 
-impl fmt::Display for InputPlan {
+/// A file and why it is left out.
+impl fmt::Display for LeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all = f.alternate();
+        write!(f, "{} ({})", self.file, self.reason)
+    }
+}
+
+impl InputPlan {
+    /// In lines for people: a few, or with `all` one that names every photograph, and one for every file left out.
+    pub fn lines(&self, all: bool) -> Vec<String> {
         let names = match (all, &self.photographs[..]) {
             (false, [first, .., last]) => format!("{first} to {last}"),
             (_, names) => names.join(", "),
@@ -174,36 +181,46 @@ impl fmt::Display for InputPlan {
             Order::Names => "by name".to_owned(),
             Order::List(list) => format!("as {list} lists them"),
         };
-        writeln!(
-            f,
-            "photographs: {} ({order}): {names}",
-            self.photographs.len()
-        )?;
-        writeln!(f, "mask: {}", self.mask)?;
-        writeln!(f, "colour: {} ({})", self.color.taken, self.color.because)?;
+        let count = self.photographs.len();
+        let mut lines = vec![
+            format!("photographs: {count} ({order}): {names}"),
+            format!("mask: {}", self.mask),
+            format!("colour: {} ({})", self.color.taken, self.color.because),
+        ];
         if let Some(LightsDecision { file, matched }) = &self.lights {
-            writeln!(f, "lights: {file}, matched by {matched}")?;
+            lines.push(format!("lights: {file}, matched by {matched}"));
         }
-        if all {
-            for LeftOut { file, reason } in &self.left_out {
-                writeln!(f, "left out: {file} ({reason})")?;
-            }
-        } else {
-            // Helper files are nobody's concern.
-            let told = |left: &&LeftOut| left.reason != LeftOutReason::System;
-            let files: Vec<String> = self
-                .left_out
-                .iter()
-                .filter(told)
-                .map(|LeftOut { file, reason }| format!("{file} ({reason})"))
-                .collect();
-            if !files.is_empty() {
-                writeln!(f, "left out: {}", some_names(&files))?;
-            }
-        }
-        for notice in &self.notices {
-            writeln!(f, "notice: {notice}")?;
-        }
-        Ok(())
+        lines.extend(left_out_lines(&self.left_out, all));
+        lines.extend(notice_lines(&self.notices));
+        lines
+    }
+}
+
+/// What is said about files that are left out: a line for each, or one for all that a person might miss.
+pub fn left_out_lines(files: &[LeftOut], all: bool) -> Vec<String> {
+    // Helper files are nobody's concern.
+    let told = |left: &&LeftOut| all || left.reason != LeftOutReason::System;
+    let files: Vec<String> = files.iter().filter(told).map(LeftOut::to_string).collect();
+    match (all, files.is_empty()) {
+        (_, true) => Vec::new(),
+        (true, false) => files
+            .iter()
+            .map(|file| format!("left out: {file}"))
+            .collect(),
+        (false, false) => vec![format!("left out: {}", some_names(&files))],
+    }
+}
+
+/// What is said about what is doubtful, a line for each.
+pub fn notice_lines(notices: &[Notice]) -> Vec<String> {
+    let line = |notice: &Notice| format!("notice: {notice}");
+    notices.iter().map(line).collect()
+}
+
+impl fmt::Display for InputPlan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.lines(f.alternate())
+            .iter()
+            .try_for_each(|line| writeln!(f, "{line}"))
     }
 }

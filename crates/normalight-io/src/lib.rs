@@ -70,6 +70,7 @@ pub use error::IoError;
 pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
 pub use input_plan::{
     ColorDecision, ColorReason, InputPlan, LeftOut, LeftOutReason, LightsDecision, Order,
+    left_out_lines, notice_lines,
 };
 pub use light_axes::{LightAxes, LightAxesError};
 pub use light_exports::{lights_csv, lights_lp};

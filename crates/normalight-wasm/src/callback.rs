@@ -1,8 +1,10 @@
 //! Progress out, cancelling in, and the clock.
 use crate::stage::Stage;
-use normalight_io::StageSeconds;
+use crate::error::Failure;
+use normalight_io::{InputPlan, StageSeconds};
 use normalight_model::{Observer, Progress, StageTimes};
 use std::ops::ControlFlow;
+use tsify::Tsify;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -11,6 +13,8 @@ const TYPES: &str = "
 export interface ProgressCallback {
   /** Hears of progress (a stage and the share of it that is done), lets the event loop run, and says whether to go on. */
   report(stage: Stage, fraction: number): Promise<boolean>;
+  /** Hears what was decided about the files, before anything is computed: typed, and in the command's words. */
+  plan(plan: InputPlan, words: string[]): void;
 }
 ";
 
@@ -27,6 +31,9 @@ extern "C" {
         stage: &str,
         fraction: f32,
     ) -> Result<JsValue, JsValue>;
+
+    #[wasm_bindgen(method, catch)]
+    fn plan(this: &ProgressCallback, plan: JsValue, words: Vec<String>) -> Result<(), JsValue>;
 
     #[wasm_bindgen(js_namespace = performance)]
     fn now() -> f64;
@@ -52,9 +59,18 @@ impl<'a> ProgressObserver<'a> {
         })
     }
 
-    /// The files are read.
-    pub(crate) fn read(&mut self) {
+    /// The files are read, and this was decided about them.
+    ///
+    /// # Errors
+    /// A plan that JavaScript cannot hold.
+    pub(crate) fn read(&mut self, plan: &InputPlan) -> Result<(), Failure> {
         self.read = seconds() - self.started;
+        let said = self
+            .callback
+            .plan(plan.clone().into_ts()?.into(), plan.lines(true));
+        // A callback that fails is asked to go on next, and then cannot say yes.
+        drop(said);
+        Ok(())
     }
 
     /// Seconds per stage, the reading first.

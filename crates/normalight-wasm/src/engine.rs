@@ -66,13 +66,16 @@ impl Engine {
             .await
             .ok_or(Failure::Cancelled)?;
         let reading = settings.reading(mask.map(NamedBytes::from));
-        let input = read_stack(named_bytes(files), &reading)?;
+        let mut input = read_stack(named_bytes(files), &reading)?;
         let lights = lights.map(NamedBytes::from);
-        let given = lights
-            .as_ref()
-            .map(|file| input.read_lights(&file.name, &file.bytes))
-            .transpose()?;
-        observer.read();
+        let given = match &lights {
+            Some(NamedBytes { name, bytes }) => {
+                let given = input.given_lights(name, bytes, settings.light_axes()?)?;
+                Some(input.accept_lights(name, given))
+            }
+            None => None,
+        };
+        observer.read(&input.plan)?;
         let estimate = self
             .estimator
             .estimate(

@@ -2,7 +2,10 @@
 use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
 use js_sys::Uint8Array;
-use normalight_io::{ColorMode, NamedBytes, decode_image, find_list, plan_stack, read_text};
+use normalight_io::{
+    ColorMode, LeftOut, NamedBytes, Notice, decode_image, find_list, left_out_lines, notice_lines, plan_stack,
+    read_text,
+};
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
@@ -15,6 +18,13 @@ pub struct Plan {
     /// Position of the mask among the files.
     #[tsify(optional)]
     mask: Option<usize>,
+    /// Files that a person might miss among the images, and why they are not.
+    #[serde(rename = "leftOut")]
+    left_out: Vec<LeftOut>,
+    /// What is doubtful.
+    notices: Vec<Notice>,
+    /// Both in words, a line each, as the command says them.
+    words: Vec<String>,
 }
 
 /// A photograph in few pixels.
@@ -47,9 +57,16 @@ pub fn plan(files: Vec<InputFile>) -> Result<Ts<Plan>, Failure> {
         .as_ref()
         .map(|(index, text)| (names[*index], text.as_str()));
     let plan = plan_stack(&names, list)?;
+    let words = [
+        left_out_lines(&plan.left_out, false),
+        notice_lines(&plan.notices),
+    ];
     let plan = Plan {
         images: plan.images,
         mask: plan.mask,
+        left_out: plan.left_out,
+        notices: plan.notices,
+        words: words.concat(),
     };
     Ok(plan.into_ts()?)
 }

@@ -3,7 +3,7 @@ use crate::error::Failure;
 use crate::file::OutputFile;
 use js_sys::{Float32Array, Uint8Array};
 use normalight_core::MaskSource;
-use normalight_io::{Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files};
+use normalight_io::{InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files};
 use normalight_model::{Estimate, Quality};
 use serde::Serialize;
 use tsify::Tsify;
@@ -29,6 +29,10 @@ pub struct Estimated {
     lights: Vec<LightRow>,
     /// Which pixels were taken for the object, and how many.
     mask: MaskReport,
+    /// What was decided about the files, and what is doubtful.
+    plan: InputPlan,
+    /// The same in words, a line each, as the command says them.
+    plan_words: Vec<String>,
     /// What computed.
     device: String,
     /// Over how many views it was averaged.
@@ -153,6 +157,8 @@ impl Estimated {
                 words: input.mask_label().to_owned(),
                 pixels: input.mask.count(),
             },
+            plan: input.plan.clone(),
+            plan_words: input.plan.lines(true),
             device: report.device.clone(),
             quality: report.settings.quality,
             seconds: report.seconds.clone(),

@@ -1,6 +1,7 @@
 //! Settings as JavaScript words.
+use crate::error::Failure;
 use normalight_core::RefitSettings;
-use normalight_io::{ColorMode, MaskChoice, NamedBytes, NormalFormat, ReadOptions};
+use normalight_io::{ColorMode, LightAxes, LightAxesError, MaskChoice, NamedBytes, NormalFormat, ReadOptions};
 use normalight_model::{EstimateSettings, Quality};
 use serde::{Deserialize, Serialize};
 use tsify::Tsify;
@@ -15,6 +16,8 @@ pub struct Settings {
     pub(crate) mask: MaskSetting,
     /// Use only this many images, evenly spaced.
     pub(crate) images: Option<usize>,
+    /// Which way the axes of a light file point: `x-right,y-up,z-out` (ours), `x-right,y-down,z-in`, ...
+    pub(crate) light_axes: String,
     /// Which way green points in `normals.png` and the preview.
     pub(crate) normal_format: NormalFormat,
     /// Refit the lights to the normals, and the normals to them.
@@ -40,6 +43,7 @@ impl Default for Settings {
             color: ColorMode::default(),
             mask: MaskSetting::default(),
             images: None,
+            light_axes: LightAxes::default().to_string(),
             normal_format: NormalFormat::default(),
             refit: true,
             quality: Quality::default(),
@@ -58,6 +62,15 @@ impl Settings {
             },
             images: self.images,
         }
+    }
+
+    /// Which way the axes of a light file point.
+    ///
+    /// # Errors
+    /// Words that say no axes.
+    pub(crate) fn light_axes(&self) -> Result<LightAxes, Failure> {
+        let failed = |error| Failure::Input(format!("lightAxes: {error}"));
+        self.light_axes.parse().map_err(|error: LightAxesError| failed(error))
     }
 
     pub(crate) fn estimating(&self) -> EstimateSettings {

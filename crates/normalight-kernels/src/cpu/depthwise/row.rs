@@ -22,8 +22,9 @@ impl<'a> Row<'a> {
     ) -> Self {
         let mut taps = [(0, 0); 25];
         let mut count = 0;
-        for (to, from) in taps.iter_mut().zip(starts) {
-            *to = from;
+        // A larger kernel than there are taps for ends here, not in a sum of some of them.
+        for start in starts {
+            taps[count] = start;
             count += 1;
         }
         Self {

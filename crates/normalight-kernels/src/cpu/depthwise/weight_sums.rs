@@ -31,7 +31,8 @@ impl WithSimd for WeightSums<'_> {
         match self.depthwise.size {
             1 => self.rows::<S, 1>(simd),
             3 => self.rows::<S, 3>(simd),
-            _ => self.rows::<S, 5>(simd),
+            5 => self.rows::<S, 5>(simd),
+            size => unreachable!("kernels of {size} are not among the supported sizes"),
         }
     }
 }

@@ -1,0 +1,134 @@
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { commandResults, goldenStack, greyPng } from "./support/files.js";
+import { Page } from "./support/page.js";
+
+/** @typedef {import("./support/files.js").TestFile} TestFile */
+
+const golden = goldenStack();
+const photographs = golden.filter(({ name }) => name !== "mask.png");
+const text = new TextEncoder();
+/** @type {Page} */
+let page;
+
+before(async () => {
+  page = await Page.open({ webgpu: false });
+});
+after(() => page.close());
+
+/** Lines of a list on the page. @param {string} list */
+const lines = (list) => page.page.locator(`${list} li`).allTextContents();
+
+/** A file of a format that is recognised and not read. @type {TestFile} */
+const heic = {
+  name: "IMG_0042.heic",
+  bytes: new Uint8Array([0, 0, 0, 24, ...text.encode("ftypheic"), 0, 0, 0, 0, ...text.encode("mif1heic")]),
+};
+
+/** The command's plan of the same files. @param {TestFile[]} files @param {string[]} options */
+function commandPlan(files, ...options) {
+  const report = commandResults(files, ...options).get("report.json");
+  return JSON.parse(new TextDecoder().decode(report)).plan;
+}
+
+/** The page's plan, from the report that it offers. */
+async function pagePlan() {
+  return JSON.parse((await page.download("report.json")).toString("utf8")).plan;
+}
+
+/** Files, and what must be said of them before and after the run. @type {[string, TestFile[], RegExp[], RegExp[]][]} */
+const cases = [
+  [
+    "photographs of a phone beside PNGs are named",
+    [...golden, heic],
+    [/left out: IMG_0042\.heic \(HEIC/],
+    [/^left out: IMG_0042\.heic \(HEIC/, /^mask: mask\.png/],
+  ],
+  [
+    "maps of another tool are no photographs",
+    [...golden, ...["normal.png", "albedo.png"].map((name) => greyPng(name, 92, 92, 128))],
+    [/normal\.png \(a map, by the word/],
+    [/^left out: albedo\.png \(a map/, /^left out: normal\.png \(a map/],
+  ],
+  [
+    "a list decides about the photographs and their order",
+    [...golden, { name: "filenames.txt", bytes: text.encode("005.png\r\n003.PNG\r\n001.png\r\n007\r\n") }],
+    [/not in the list/],
+    [/^photographs: 4 \(as filenames\.txt lists them\): 005\.png, 003\.png, 001\.png, 007\.png/],
+  ],
+  [
+    "a wrong extension is noticed",
+    photographs.map((file, index) => (index === 0 ? { ...file, name: "001.jpg" } : file)),
+    [],
+    [/001\.jpg/],
+  ],
+];
+
+for (const [what, files, before, after] of cases) {
+  test(`${what}, on the page as on the command`, async () => {
+    await page.upload(files);
+    await page.page.waitForSelector("#start:enabled");
+    for (const expected of before) {
+      await page.page.locator("#stack-notes li", { hasText: expected }).waitFor();
+    }
+    assert.equal(await page.estimate(), "");
+    const said = await lines("#plan");
+    for (const expected of after)
+      assert.ok(
+        said.some((line) => expected.test(line)),
+        said.join("\n"),
+      );
+    assert.deepEqual(await pagePlan(), commandPlan(files));
+    page.assertQuiet();
+  });
+}
+
+test("what is doubtful is shown before the result, and goes with the photographs", async () => {
+  await page.upload([...photographs, { name: "rejected.txt", bytes: text.encode("001.png\n") }]);
+  assert.equal(await page.estimate(), "");
+  const said = await lines("#notices");
+  assert.ok(said.length > 0, "the guessed mask or the list is said");
+  assert.deepEqual(said, await lines("#plan .doubtful"));
+  await page.page.click("#clear");
+  await page.page.waitForSelector("#notices", { state: "hidden" });
+});
+
+test("lights with another handedness: their axes are a setting", async () => {
+  const lights = photographs.map((_, index) => {
+    const turn = (index * 2 * Math.PI) / photographs.length;
+    return [0.5 * Math.cos(turn), 0.5 * Math.sin(turn), 0.8];
+  });
+  /** @param {number} sign */
+  const file = (sign) => ({
+    name: sign > 0 ? "ours.lp" : "theirs.lp",
+    bytes: text.encode(
+      [
+        photographs.length,
+        ...photographs.map(({ name }, index) => {
+          const [x = 0, y = 0, z = 0] = lights[index] ?? [];
+          // As programs of a country with decimal commas write it on Windows.
+          return `C:\\shots\\${name}\t${[x, sign * y, z].map((value) => value.toFixed(5).replace(".", ",")).join("\t")}`;
+        }),
+      ].join("\r\n"),
+    ),
+  });
+  await page.upload(golden);
+  const tables = [];
+  for (const [sign, axes] of /** @type {[number, string][]} */ ([
+    [1, "x-right,y-up,z-out"],
+    [-1, "x-right,y-down,z-out"],
+  ])) {
+    await page.choose("lights", file(sign));
+    await page.page.selectOption('select[name="light-axes"]', axes);
+    assert.equal(await page.estimate(), "");
+    const said = await lines("#plan");
+    assert.ok(
+      said.some((line) => /^lights: (ours|theirs)\.lp, matched by /.test(line)),
+      said.join("\n"),
+    );
+    tables.push(await page.page.locator("#lights tr").allTextContents());
+  }
+  assert.deepEqual(tables[0], tables[1]);
+  await page.page.check('input[name="lights"][value="auto"]', { force: true });
+  await page.page.waitForSelector("#light-axes", { state: "hidden" });
+});
