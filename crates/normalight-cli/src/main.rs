@@ -4,6 +4,7 @@ mod args;
 mod bench;
 mod choices;
 mod device;
+mod display;
 mod estimate;
 mod evaluate;
 mod interrupt;
@@ -40,6 +41,7 @@ enum Outcome {
 const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
+    display::quiet_without();
     // Wrong usage ends here, with code 2.
     let arguments = Arguments::parse();
     let outcome = interrupt::listen().and_then(|()| match &arguments.command {

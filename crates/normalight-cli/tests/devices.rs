@@ -47,6 +47,19 @@ fn the_gpu_agrees() {
     assert!(furthest(&out, &gpu) < 2e-3);
 }
 
+/// Where drivers are there and no display is, the search for a GPU has nothing to say.
+#[test]
+fn a_machine_without_a_display_is_no_error() {
+    let (_place, photographs, out) = prepared();
+    let mut command = on_device("auto", &photographs, &out);
+    command.arg("--quiet");
+    command
+        .env_remove("XDG_RUNTIME_DIR")
+        .env_remove("WAYLAND_DISPLAY");
+    let output = ended(command, 0);
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
 #[test]
 fn software_is_not_taken_for_a_gpu() {
     let (_place, photographs, out) = prepared();

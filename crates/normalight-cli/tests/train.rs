@@ -25,6 +25,33 @@ fn train(network: &str, recipe: &Path, run: &Path, more: &[&str]) -> Command {
     command
 }
 
+/// What a newcomer types first, shortened.
+#[test]
+fn the_first_training_of_the_readme_needs_no_files() {
+    let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let readme = std::fs::read_to_string(project.join("README.md")).unwrap();
+    let commands = readme.lines().map(str::trim);
+    let first = commands
+        .filter(|line| line.starts_with("target/release/normalight train"))
+        .find_map(|line| line.split("--recipe ").nth(1)?.split(' ').next())
+        .unwrap();
+    let whole = std::fs::read_to_string(project.join(first)).unwrap();
+    let mut text = whole.clone();
+    for (long, short) in [
+        ("steps = 2000", "steps = 1"),
+        ("batch = 16", "batch = 1"),
+        ("validation_objects = 16", "validation_objects = 1"),
+    ] {
+        assert!(text.contains(long), "{long} is missing in {first}");
+        text = text.replace(long, short);
+    }
+    let place = tempfile::tempdir().unwrap();
+    let recipe = place.path().join("short.toml");
+    std::fs::write(&recipe, text).unwrap();
+    let said = said(train("normal", &recipe, &place.path().join("run"), &[]));
+    assert!(said.contains("degrees"), "{said}");
+}
+
 #[test]
 fn two_steps_and_two_more() {
     let place = tempfile::tempdir().unwrap();

@@ -1,6 +1,6 @@
 //! Progress out, cancelling in, and the clock.
-use crate::stage::Stage;
 use crate::error::Failure;
+use crate::stage::Stage;
 use normalight_io::{InputPlan, StageSeconds};
 use normalight_model::{Observer, Progress, StageTimes};
 use std::ops::ControlFlow;

@@ -3,8 +3,8 @@ use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
 use js_sys::Uint8Array;
 use normalight_io::{
-    ColorMode, LeftOut, NamedBytes, Notice, decode_image, find_list, left_out_lines, notice_lines, plan_stack,
-    read_text,
+    ColorMode, LeftOut, NamedBytes, Notice, decode_image, find_list, left_out_lines, notice_lines,
+    plan_stack, read_text,
 };
 use serde::Serialize;
 use tsify::{Ts, Tsify};

@@ -3,7 +3,9 @@ use crate::error::Failure;
 use crate::file::OutputFile;
 use js_sys::{Float32Array, Uint8Array};
 use normalight_core::MaskSource;
-use normalight_io::{InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files};
+use normalight_io::{
+    InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files,
+};
 use normalight_model::{Estimate, Quality};
 use serde::Serialize;
 use tsify::Tsify;

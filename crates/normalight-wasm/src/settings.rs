@@ -1,7 +1,9 @@
 //! Settings as JavaScript words.
 use crate::error::Failure;
 use normalight_core::RefitSettings;
-use normalight_io::{ColorMode, LightAxes, LightAxesError, MaskChoice, NamedBytes, NormalFormat, ReadOptions};
+use normalight_io::{
+    ColorMode, LightAxes, LightAxesError, MaskChoice, NamedBytes, NormalFormat, ReadOptions,
+};
 use normalight_model::{EstimateSettings, Quality};
 use serde::{Deserialize, Serialize};
 use tsify::Tsify;
@@ -70,7 +72,9 @@ impl Settings {
     /// Words that say no axes.
     pub(crate) fn light_axes(&self) -> Result<LightAxes, Failure> {
         let failed = |error| Failure::Input(format!("lightAxes: {error}"));
-        self.light_axes.parse().map_err(|error: LightAxesError| failed(error))
+        self.light_axes
+            .parse()
+            .map_err(|error: LightAxesError| failed(error))
     }
 
     pub(crate) fn estimating(&self) -> EstimateSettings {

@@ -50,9 +50,9 @@ pub(crate) struct TrainArgs {
 }
 
 const TRAIN_EXAMPLES: &str = "\
-Example: train the light network, and continue after a break
-  normalight train light --recipe models/recipes/light.toml --run runs/light
-  normalight train light --recipe models/recipes/light.toml --run runs/light --resume
+Example: a first training, which needs no files, and on after a break
+  normalight train normal --recipe models/recipes/first.toml --run runs/first
+  normalight train normal --recipe models/recipes/first.toml --run runs/first --resume
 
 Exit codes: 0 finished, 1 error, 2 wrong usage, 3 diverged (loss or gradient no number any more),
 130 stopped by Ctrl-C or SIGTERM after writing a checkpoint. summary.json says the same:
