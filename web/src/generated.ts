@@ -51,6 +51,14 @@ export interface Estimate {
      */
     mask: MaskReport;
     /**
+     * What was decided about the files, and what is doubtful.
+     */
+    plan: InputPlan;
+    /**
+     * The same in words, a line each, as the command says them.
+     */
+    planWords: string[];
+    /**
      * What computed.
      */
     device: string;
@@ -271,6 +279,18 @@ export interface Plan {
      * Position of the mask among the files.
      */
     mask?: number;
+    /**
+     * Files that a person might miss among the images, and why they are not.
+     */
+    leftOut: LeftOut[];
+    /**
+     * What is doubtful.
+     */
+    notices: Notice[];
+    /**
+     * Both in words, a line each, as the command says them.
+     */
+    words: string[];
 }
 
 /**
@@ -393,6 +413,10 @@ export interface Settings {
      * Use only this many images, evenly spaced.
      */
     images?: number | undefined;
+    /**
+     * Which way the axes of a light file point: `x-right,y-up,z-out` (ours), `x-right,y-down,z-in`, ...
+     */
+    lightAxes?: string;
     /**
      * Which way green points in `normals.png` and the preview.
      */

@@ -86,7 +86,8 @@ pub use names::NameMatch;
 pub use native::{
     DiligentObject, ObjectToPublish, OutputFolder, PublishedEntry, PublishedObject, PublishedPart,
     PublishedSet, PublishedSplit, PublishedWriter, list_diligent_objects, mesh_files,
-    read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths, write_files,
+    read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths,
+    sweep_leftovers, write_files,
 };
 pub use notice::Notice;
 pub use photographs::{Thumbnail, photograph_png, thumbnail};

@@ -1,4 +1,5 @@
 //! The only part of this crate that touches the file system.
+mod aside;
 mod diligent;
 mod files;
 mod intensities;
@@ -8,6 +9,7 @@ mod published;
 mod read;
 mod write;
 
+pub use aside::sweep_leftovers;
 pub use diligent::{DiligentObject, list_diligent_objects, read_diligent_object};
 pub use files::read_named;
 pub use meshes::{mesh_files, read_mesh_file};

@@ -206,6 +206,32 @@ fn blocked_places_are_named() {
     assert!(!root.join("val_mtrl.txt").exists());
 }
 
+/// A set whose writer was killed has objects that no list names.
+#[test]
+fn a_killed_set_is_written_again() {
+    let place = tempfile::tempdir().unwrap();
+    let (name, object) = (entry("ball", "gold"), half_ball(SIDE));
+    let mut killed = PublishedWriter::create(place.path()).unwrap();
+    killed
+        .write(&object.as_entry(&name), PublishedPart::Train)
+        .unwrap();
+    drop(killed);
+    let mut again = PublishedWriter::create(place.path()).unwrap();
+    let mut other = half_ball(SIDE);
+    other.lights[1].intensity[0] *= 0.5;
+    let refused = again.write(&other.as_entry(&name), PublishedPart::Train);
+    assert!(matches!(refused, Err(IoError::Exists { .. })));
+    again
+        .write(&object.as_entry(&name), PublishedPart::Train)
+        .unwrap();
+    // Once listed it is no leftover.
+    let twice = again.write(&object.as_entry(&name), PublishedPart::Train);
+    assert!(matches!(twice, Err(IoError::Exists { .. })));
+    again.finish().unwrap();
+    let list = fs::read_to_string(place.path().join("train_mtrl.txt")).unwrap();
+    assert_eq!(list, "ball/gold\n");
+}
+
 /// Tells the process that may only write small files where to write.
 #[cfg(unix)]
 const FULL_AT: &str = "NORMALIGHT_TEST_FULL_AT";

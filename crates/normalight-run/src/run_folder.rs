@@ -11,8 +11,6 @@ const LOCK: &str = "lock";
 const LOG: &str = "log.txt";
 const RECIPE: &str = "recipe.toml";
 const SUMMARY: &str = "summary.json";
-/// How the names of files begin that were being written when a run was killed.
-const ASIDE: &str = ".normalight-";
 
 /// A run's folder, locked.
 pub(crate) struct RunFolder {
@@ -116,13 +114,7 @@ impl RunFolder {
 
     /// Takes away what a killed run left half written.
     pub(crate) fn clean(&self) {
-        let entries = std::fs::read_dir(&self.path).into_iter().flatten();
-        for entry in entries.flatten() {
-            if entry.file_name().to_string_lossy().starts_with(ASIDE) {
-                // What cannot be removed does no harm.
-                let _ = std::fs::remove_file(entry.path());
-            }
-        }
+        normalight_io::sweep_leftovers(&self.path);
     }
 
     /// Whether a run has begun here.

@@ -1,12 +1,9 @@
+use super::aside::{new_file, sweep_leftovers};
 use super::files::display;
 use crate::IoError;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
-
-/// How names of what is written aside begin: hidden, and of use to nobody.
-const ASIDE: &str = ".normalight-";
 
 /// A folder for results, made and tried out before the work that leads to them.
 ///
@@ -19,7 +16,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes the folder when it is missing, and tries whether a file can be made in it.
+    /// Makes the folder when it is missing, takes away what killed processes left half written in it, and tries whether a
+    /// file can be made there.
     ///
     /// # Errors
     /// [`IoError::Write`] naming the folder.
@@ -38,8 +36,9 @@ impl OutputFolder {
             made: missing.map(Path::to_owned).collect(),
         };
         fs::create_dir_all(path)
-            .and_then(|()| new_temporary(path))
+            .and_then(|()| new_file(path))
             .map_err(|reason| write_error(path, reason))?;
+        sweep_leftovers(path);
         Ok(folder)
     }
 
@@ -68,7 +67,7 @@ impl OutputFolder {
                 return Err(refused(io::ErrorKind::IsADirectory, "it is a folder"));
             }
             let mut aside =
-                new_temporary(&self.path).map_err(|reason| write_error(&self.path, reason))?;
+                new_file(&self.path).map_err(|reason| write_error(&self.path, reason))?;
             aside
                 .write_all(bytes.as_ref())
                 .and_then(|()| aside.as_file().sync_all())
@@ -105,20 +104,6 @@ where
     B: AsRef<[u8]>,
 {
     OutputFolder::prepare(folder)?.write(files)
-}
-
-fn new_temporary(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(ASIDE);
-    // Temporary files are private by default; results are not, beyond what the umask says.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
-}
-
-/// A folder to fill before it takes its place in `folder`; it goes when dropped, with all in it.
-pub(crate) fn new_folder_aside(folder: &Path) -> io::Result<tempfile::TempDir> {
-    tempfile::Builder::new().prefix(ASIDE).tempdir_in(folder)
 }
 
 pub(crate) fn write_error(path: &Path, reason: io::Error) -> IoError {

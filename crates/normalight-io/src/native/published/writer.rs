@@ -2,8 +2,9 @@
 use super::{IMAGES, ObjectToPublish, PublishedEntry, TRAIN_LIST, VAL_LIST};
 use super::{encode, object, read_list_if_there};
 use crate::IoError;
+use crate::native::aside::{FolderAside, sweep_leftovers};
 use crate::native::files::display;
-use crate::native::write::{OutputFolder, new_folder_aside, write_error, write_files};
+use crate::native::write::{OutputFolder, write_error, write_files};
 use normalight_core::{NormalMap, Vec3};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,6 +38,7 @@ impl PublishedWriter {
     pub fn create(root: &Path) -> Result<Self, IoError> {
         let images = root.join(IMAGES);
         fs::create_dir_all(&images).map_err(|reason| write_error(&images, reason))?;
+        sweep_leftovers(&images);
         Ok(Self {
             root: root.to_owned(),
             train: read_list_if_there(&root.join(TRAIN_LIST))?,
@@ -45,10 +47,11 @@ impl PublishedWriter {
     }
 
     /// Writes an object. A shape that is there already gets one more material; its normals, mask
-    /// and depth stay as they are.
+    /// and depth stay as they are. An object that is there and in no list, as a killed run leaves
+    /// it, is taken as it is when it holds the same.
     ///
     /// # Errors
-    /// [`IoError::Exists`] for a material of the shape that is there already;
+    /// [`IoError::Exists`] for a material of the shape that is there already, listed or with other files;
     /// [`IoError::SetFormat`] for content that does not fit together, or normals other than those
     /// of the shape; [`IoError::LightCount`]; [`IoError::Encode`]; [`IoError::Write`] naming the
     /// file. After an error nothing of the object is left.
@@ -63,11 +66,18 @@ impl PublishedWriter {
         let shape_folder = entry.shape_folder(&images);
         let material_folder = shape_folder.join(entry.material());
         if material_folder.exists() {
-            return Err(IoError::Exists {
-                name: display(&material_folder),
-            });
+            let mut lists = self.train.iter().chain(&self.val);
+            let listed = lists.any(|one| one == entry);
+            if listed || !holds(&material_folder, &object.material_files()?) {
+                return Err(IoError::Exists {
+                    name: display(&material_folder),
+                });
+            }
+            check_same_shape(&shape_folder.join(entry.normals_name()), &normals)?;
+            self.list(entry, part);
+            return Ok(());
         }
-        let aside = new_folder_aside(&images).map_err(|reason| write_error(&images, reason))?;
+        let aside = FolderAside::new(&images).map_err(|reason| write_error(&images, reason))?;
         let shape_aside = aside.path().join(entry.shape());
         let material_aside = shape_aside.join(entry.material());
         let is_new = !shape_folder.exists();
@@ -83,11 +93,15 @@ impl PublishedWriter {
             false => (material_aside, material_folder),
         };
         fs::rename(&made, &goal).map_err(|reason| write_error(&goal, reason))?;
+        self.list(entry, part);
+        Ok(())
+    }
+
+    fn list(&mut self, entry: &PublishedEntry, part: PublishedPart) {
         match part {
             PublishedPart::Train => self.train.push(entry.clone()),
             PublishedPart::Validation => self.val.push(entry.clone()),
         }
-        Ok(())
     }
 
     /// Writes the lists; without it the set has no new objects.
@@ -101,6 +115,14 @@ impl PublishedWriter {
         let lists = [(VAL_LIST, text(&self.val)), (TRAIN_LIST, text(&self.train))];
         write_files(&self.root, &lists)
     }
+}
+
+/// Whether a folder has these files with this content.
+fn holds(folder: &Path, files: &[(String, Vec<u8>)]) -> bool {
+    let same = |(name, bytes): &(String, Vec<u8>)| {
+        fs::read(folder.join(name)).is_ok_and(|found| found == *bytes)
+    };
+    files.iter().all(same)
 }
 
 /// Writes files into a folder aside; errors name the place where they would have gone.
