@@ -1,6 +1,8 @@
 //! The only part of this crate that touches the file system.
 mod diligent;
+mod disk;
 mod files;
+mod inside;
 mod intensities;
 mod matlab;
 mod meshes;

@@ -1,5 +1,6 @@
 //! Small pictures in every format, made by an independent encoder.
 #![allow(dead_code)]
+pub mod archives;
 pub mod meshes;
 pub mod published;
 
