@@ -32,8 +32,8 @@ enum Place {
 }
 
 impl Packed {
-    /// Opens the archives among some files; the files back when there are none. `folder` is where
-    /// in an archive to look; empty for everywhere.
+    /// Opens the archives among some files; the files back when there are none, or nothing in them
+    /// below `folder`, which is empty for everywhere.
     ///
     /// Names of files are their paths in the archive, below the archive's name when there are other
     /// files, too.
@@ -56,9 +56,6 @@ impl Packed {
                 None => loose.push((index, name)),
             }
         }
-        if archives.is_empty() {
-            return Ok(Err(files));
-        }
         let is_alone = archives.len() == 1 && loose.iter().all(|(_, name)| is_helper(name));
         let (mut paths, mut places) = (Vec::new(), Vec::new());
         for (index, name) in &loose {
@@ -76,6 +73,9 @@ impl Packed {
                 }
             }
         }
+        if places.iter().all(|place| matches!(place, Place::Loose(_))) {
+            return Ok(Err(files));
+        }
         let whole = match is_alone {
             true => archives[0].name.clone(),
             false => "the given files".to_owned(),
@@ -90,7 +90,10 @@ impl Packed {
             };
             notices.push(Notice::FromArchive {
                 archive: name.to_owned(),
-                folder: folder.unwrap_or_default().trim_start_matches('/').to_owned(),
+                folder: folder
+                    .unwrap_or_default()
+                    .trim_start_matches('/')
+                    .to_owned(),
             });
         }
         let elsewhere = capture.elsewhere.iter().map(|&index| &paths[index]);
@@ -103,7 +106,11 @@ impl Packed {
             ..StackPlan::default()
         };
         Ok(Ok(Self {
-            names: capture.kept.iter().map(|&index| paths[index].clone()).collect(),
+            names: capture
+                .kept
+                .iter()
+                .map(|&index| paths[index].clone())
+                .collect(),
             places: capture.kept.iter().map(|&index| places[index]).collect(),
             loose: files,
             archives,
@@ -112,16 +119,13 @@ impl Packed {
         }))
     }
 
-    /// Whether there are no files at all.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.names.is_empty()
-    }
-
     /// Reads the stack.
     pub(crate) fn read(mut self, options: &ReadOptions) -> Result<StackInput, IoError> {
         let said = std::mem::take(&mut self.said);
         let whole = std::mem::take(&mut self.whole);
-        Planned::of(&mut self)?.with(said).read(Some(&whole), &mut self, options)
+        Planned::of(&mut self)?
+            .with(said)
+            .read(Some(&whole), &mut self, options)
     }
 }
 
@@ -157,16 +161,16 @@ impl FileSource for Packed {
 }
 
 /// The kind of a file that is an archive by its content.
-fn archive_kind(
-    files: &mut dyn LooseFiles,
-    index: usize,
-) -> Result<Option<ArchiveKind>, IoError> {
+fn archive_kind(files: &mut dyn LooseFiles, index: usize) -> Result<Option<ArchiveKind>, IoError> {
     if is_helper(&files.names()[index]) {
         return Ok(None);
     }
     let head = files.head(index, HEAD)?;
     let label = files.label(index);
-    match (ArchiveKind::of_content(&head), ArchiveKind::of_extension(&label)) {
+    match (
+        ArchiveKind::of_content(&head),
+        ArchiveKind::of_extension(&label),
+    ) {
         (None, Some(promised)) => Err(IoError::Archive {
             name: label,
             format: promised.label(),

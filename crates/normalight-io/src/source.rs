@@ -47,7 +47,10 @@ pub(crate) struct MemoryFiles {
 
 impl MemoryFiles {
     pub(crate) fn new(files: Vec<NamedBytes>) -> Self {
-        let (names, contents) = files.into_iter().map(|file| (file.name, file.bytes)).unzip();
+        let (names, contents) = files
+            .into_iter()
+            .map(|file| (file.name, file.bytes))
+            .unzip();
         Self { names, contents }
     }
 }
@@ -118,7 +121,8 @@ impl Planned {
         let list = list.map(|(index, text)| (files.label(index), text));
         let plan = plan_stack(
             &names,
-            list.as_ref().map(|(name, text)| (name.as_str(), text.as_str())),
+            list.as_ref()
+                .map(|(name, text)| (name.as_str(), text.as_str())),
         )?;
         let list = list.map(|(name, _)| name);
         Ok(Self { plan, list })
@@ -137,8 +141,13 @@ impl Planned {
         files: &mut dyn FileSource,
         options: &ReadOptions,
     ) -> Result<StackInput, IoError> {
-        let place = place.or(self.list.as_deref()).unwrap_or("the given files").to_owned();
+        let place = place
+            .or(self.list.as_deref())
+            .unwrap_or("the given files")
+            .to_owned();
         let names = files.names().to_vec();
-        assemble(&place, &names, self.plan, options, |index| files.take(index))
+        assemble(&place, &names, self.plan, options, |index| {
+            files.take(index)
+        })
     }
 }

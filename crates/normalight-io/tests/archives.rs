@@ -28,7 +28,11 @@ fn capture(folder: &str) -> Vec<NamedBytes> {
     files.push(named("normal.png", shaded_png(16, 12, 9)));
     let list = b"IMG_4.png\r\nIMG_2.png\r\nIMG_5.png\r\nIMG_1.png\r\n";
     files.push(named("filenames.txt", list.to_vec()));
-    files.push(named("lights.lp", b"4\nIMG_1.png 0 0 1\nIMG_2.png 0 0.6 0.8\nIMG_4.png 0.6 0 0.8\nIMG_5.png -0.6 0 0.8\n".to_vec()));
+    files.push(named(
+        "lights.lp",
+        b"4\nIMG_1.png 0 0 1\nIMG_2.png 0 0.6 0.8\nIMG_4.png 0.6 0 0.8\nIMG_5.png -0.6 0 0.8\n"
+            .to_vec(),
+    ));
     files.push(named("._IMG_1.png", b"resources".to_vec()));
     files.push(named("Thumbs.db", b"small".to_vec()));
     files
@@ -69,9 +73,14 @@ fn an_archive_gives_what_the_folder_gives() {
         capture("").into_iter().map(|f| (f.name, f.bytes)).collect();
     write_files(&folder, &plain).unwrap();
     let expected = read_path(&folder).unwrap();
-    assert_eq!(expected.file_names, [4, 2, 5, 1].map(|k| format!("IMG_{k}.png")));
+    assert_eq!(
+        expected.file_names,
+        [4, 2, 5, 1].map(|k| format!("IMG_{k}.png"))
+    );
     assert_eq!(expected.mask_source, MaskSource::File("mask.png".into()));
-    let lights = expected.read_lights_path(&folder.join("lights.lp")).unwrap();
+    let lights = expected
+        .read_lights_path(&folder.join("lights.lp"))
+        .unwrap();
     for inner in ["", "vase/", "a/b/"] {
         let mut files = capture(inner);
         files.push(file(&format!("__MACOSX/{inner}._IMG_1.png"), b"x".to_vec()));
@@ -79,8 +88,20 @@ fn an_archive_gives_what_the_folder_gives() {
             let what = format!("{name}, way {number}, folder {inner:?}");
             let input = read(vec![file(name, bytes.clone())]).unwrap();
             check_equal(&input, &expected, &what);
-            assert_eq!(from_archive(&input), (name, inner.trim_end_matches('/')), "{what}");
-            assert_eq!(input.plan.left_out.iter().filter(|&left| is_helper(left)).count(), 3);
+            assert_eq!(
+                from_archive(&input),
+                (name, inner.trim_end_matches('/')),
+                "{what}"
+            );
+            assert_eq!(
+                input
+                    .plan
+                    .left_out
+                    .iter()
+                    .filter(|&left| is_helper(left))
+                    .count(),
+                3
+            );
             write_files(place.path(), &[(name, &bytes)]).unwrap();
             let path = place.path().join(name);
             check_equal(&read_path(&path).unwrap(), &expected, &what);
@@ -88,7 +109,10 @@ fn an_archive_gives_what_the_folder_gives() {
             let given = path.join(inner).join("lights.lp");
             assert_eq!(input.read_lights_path(&given).unwrap(), lights, "{what}");
             let mask = MaskChoice::File(read_named(&path.join(inner).join("mask.png")).unwrap());
-            let options = ReadOptions { mask, ..ReadOptions::default() };
+            let options = ReadOptions {
+                mask,
+                ..ReadOptions::default()
+            };
             let masked = read_paths(&[path.clone()], &options).unwrap();
             assert_eq!(masked.mask.inside(), expected.mask.inside());
         }
@@ -105,10 +129,16 @@ fn only_picked_images_are_read() {
         .map(|k| ZipEntry::stored(&format!("{k}.png"), &shaded_png(16, 12, k)))
         .collect();
     entries[1].crc ^= 1;
-    let options = ReadOptions { images: Some(3), ..ReadOptions::default() };
+    let options = ReadOptions {
+        images: Some(3),
+        ..ReadOptions::default()
+    };
     let archive = file("a.zip", zip(&entries));
     let input = read_stack(vec![archive.clone()], &options).unwrap();
-    assert_eq!((input.picked.as_slice(), input.file_names.len()), (&[0, 4, 8][..], 9));
+    assert_eq!(
+        (input.picked.as_slice(), input.file_names.len()),
+        (&[0, 4, 8][..], 9)
+    );
     let error = read(vec![archive]).unwrap_err();
     assert!(matches!(&error, IoError::Archive { .. }), "{error}");
 }
@@ -173,15 +203,26 @@ fn names_of_all_systems() {
 fn a_project_with_several_folders() {
     let shots = |folder: &str, seed: u32| -> Vec<NamedBytes> {
         let name = |k| format!("{folder}_{k}.png");
-        (1..=4).map(|k| file(&name(k), shaded_png(16, 12, seed + k))).collect()
+        (1..=4)
+            .map(|k| file(&name(k), shaded_png(16, 12, seed + k)))
+            .collect()
     };
     let mut files = shots("Stela/jpeg-exports/Stela", 0);
-    files.push(file("Stela/finished-files/preview.png", shaded_png(16, 12, 9)));
+    files.push(file(
+        "Stela/finished-files/preview.png",
+        shaded_png(16, 12, 9),
+    ));
     files.push(file("Stela/original-captures/a.NEF", b"raw".to_vec()));
     files.push(file("Stela/assembly-files/Stela.lp", b"1\n".to_vec()));
-    files.push(file("Stela/results/mask.png", mask_png(16, 12, |x, _| x > 8)));
+    files.push(file(
+        "Stela/results/mask.png",
+        mask_png(16, 12, |x, _| x > 8),
+    ));
     let input = read(vec![file("stela.zip", zip_of(&files))]).unwrap();
-    assert_eq!(input.file_names, [1, 2, 3, 4].map(|k| format!("Stela_{k}.png")));
+    assert_eq!(
+        input.file_names,
+        [1, 2, 3, 4].map(|k| format!("Stela_{k}.png"))
+    );
     assert_eq!(from_archive(&input), ("stela.zip", "Stela/jpeg-exports"));
     assert_ne!(input.mask_source, MaskSource::File("mask.png".into()));
     let elsewhere: Vec<&str> = input
@@ -191,8 +232,15 @@ fn a_project_with_several_folders() {
         .filter(|left| left.reason == LeftOutReason::OtherFolder)
         .map(|left| left.file.as_str())
         .collect();
-    assert_eq!(elsewhere, ["Stela/finished-files/preview.png", "Stela/results/mask.png"]);
-    assert!(input.plan.to_string().contains("Stela/jpeg-exports"), "{}", input.plan);
+    assert_eq!(
+        elsewhere,
+        ["Stela/finished-files/preview.png", "Stela/results/mask.png"]
+    );
+    assert!(
+        input.plan.to_string().contains("Stela/jpeg-exports"),
+        "{}",
+        input.plan
+    );
 
     // Two captures: neither is guessed, and either can be given.
     let mut two = shots("bear/bear", 0);
@@ -207,7 +255,10 @@ fn a_project_with_several_folders() {
     );
     let cat = read_path(&path.join("cat")).unwrap();
     assert_eq!(cat.file_names, [1, 2, 3, 4].map(|k| format!("cat_{k}.png")));
-    assert!(matches!(read_path(&path.join("dog")), Err(IoError::Read { .. })));
+    assert!(matches!(
+        read_path(&path.join("dog")),
+        Err(IoError::Read { .. })
+    ));
 
     // One shot in each folder.
     let apart: Vec<NamedBytes> = (1..=4)
@@ -233,9 +284,16 @@ fn archives_beside_other_files() {
     files.push(archive.clone());
     let input = read(files).unwrap();
     assert_eq!(input.stack.len(), 3);
-    let left = LeftOut { file: "photos.zip".into(), reason: LeftOutReason::Archive };
+    let left = LeftOut {
+        file: "photos.zip".into(),
+        reason: LeftOutReason::Archive,
+    };
     assert_eq!(input.plan.left_out, [left]);
-    assert!(input.plan.to_string().contains("photos.zip (an archive"), "{}", input.plan);
+    assert!(
+        input.plan.to_string().contains("photos.zip (an archive"),
+        "{}",
+        input.plan
+    );
     // On a disk as in memory.
     let place = tempfile::tempdir().unwrap();
     let both = [(&archive.name, &archive.bytes), (&mask.name, &mask.bytes)];
@@ -263,7 +321,10 @@ fn links_and_inner_archives_are_named() {
         .iter()
         .map(|shot| ZipEntry::deflated(&shot.name, &shot.bytes))
         .collect();
-    entries.push(ZipEntry { mode: 0o120_777, ..ZipEntry::stored("11.png", b"1.png") });
+    entries.push(ZipEntry {
+        mode: 0o120_777,
+        ..ZipEntry::stored("11.png", b"1.png")
+    });
     entries.push(ZipEntry::stored("more/", b""));
     entries.push(ZipEntry::stored("more.zip", &zip_of(&three(16, 12))));
     for archive in [file("a.tar", tar), file("a.zip", zip(&entries))] {
@@ -271,7 +332,8 @@ fn links_and_inner_archives_are_named() {
         assert_eq!(input.stack.len(), 3);
         let left = |name: &str| {
             let mut all = input.plan.left_out.iter();
-            all.find(|left| left.file == name).map(|left| left.reason.clone())
+            all.find(|left| left.file == name)
+                .map(|left| left.reason.clone())
         };
         assert_eq!(left("11.png"), Some(LeftOutReason::Link));
         assert_eq!(left("more.zip"), Some(LeftOutReason::Archive));
@@ -289,6 +351,14 @@ fn the_page_gets_the_same_files() {
         .map(|index| unpacked.take(index).unwrap())
         .collect();
     assert_eq!(given.len(), files.len() - 1);
-    check_equal(&read(given).unwrap(), &read(vec![archive]).unwrap(), "unpacked");
-    assert!(UnpackedFiles::open(file("1.png", shaded_png(16, 12, 1))).unwrap().is_none());
+    check_equal(
+        &read(given).unwrap(),
+        &read(vec![archive]).unwrap(),
+        "unpacked",
+    );
+    assert!(
+        UnpackedFiles::open(file("1.png", shaded_png(16, 12, 1)))
+            .unwrap()
+            .is_none()
+    );
 }

@@ -1,13 +1,13 @@
 //! Archives that are refused, in words; and damaged ones, which never panic.
 mod common;
 
-use common::archives::{
-    ZipEntry, all_ways, gzip, tar_end, tar_entry, tar_of, zip, zip_of,
-};
+use common::archives::{ZipEntry, all_ways, gzip, tar_end, tar_entry, tar_of, zip, zip_of};
 use common::{file, shaded_png, three};
+use normalight_core::StackImage;
 use normalight_io::{
     IoError, MAX_ARCHIVE_FILES, NamedBytes, ReadOptions, read_paths, read_stack, write_files,
 };
+use std::collections::BTreeSet;
 
 fn read(name: &str, bytes: Vec<u8>) -> Result<usize, IoError> {
     let input = read_stack(vec![file(name, bytes)], &ReadOptions::default());
@@ -27,7 +27,9 @@ fn refused(name: &str, bytes: Vec<u8>) -> String {
 /// Three photographs, and an entry more.
 fn with(entry: ZipEntry) -> Vec<u8> {
     let shots = three(16, 12);
-    let shots = shots.iter().map(|shot| ZipEntry::deflated(&shot.name, &shot.bytes));
+    let shots = shots
+        .iter()
+        .map(|shot| ZipEntry::deflated(&shot.name, &shot.bytes));
     zip(&shots.chain([entry]).collect::<Vec<_>>())
 }
 
@@ -38,15 +40,33 @@ fn shot(name: &str) -> ZipEntry {
 #[test]
 fn encryption_and_unknown_compression() {
     assert_eq!(read("a.zip", with(shot("11.png"))).unwrap(), 4);
-    let encrypted = ZipEntry { flags: 1, ..shot("11.png") };
+    let encrypted = ZipEntry {
+        flags: 1,
+        ..shot("11.png")
+    };
     let words = refused("a.zip", with(encrypted.clone()));
-    assert!(words.contains("encrypted") && words.contains("11.png") && words.contains("password"), "{words}");
-    for (method, name) in [(9, "Deflate64"), (14, "LZMA"), (77, "77")] {
-        let words = refused("a.zip", with(ZipEntry { method, ..shot("11.png") }));
-        assert!(words.contains("11.png") && words.to_lowercase().contains(&name.to_lowercase()), "{words}");
+    assert!(
+        words.contains("encrypted") && words.contains("11.png") && words.contains("password"),
+        "{words}"
+    );
+    for (method, name) in [(9, "Deflate64"), (14, "LZMA"), (77, "unknown")] {
+        let words = refused(
+            "a.zip",
+            with(ZipEntry {
+                method,
+                ..shot("11.png")
+            }),
+        );
+        assert!(
+            words.contains("11.png") && words.to_lowercase().contains(&name.to_lowercase()),
+            "{words}"
+        );
     }
     // Of what nobody reads it does not matter.
-    let helper = ZipEntry { name: b"__MACOSX/._1.png".to_vec(), ..encrypted };
+    let helper = ZipEntry {
+        name: b"__MACOSX/._1.png".to_vec(),
+        ..encrypted
+    };
     assert_eq!(read("a.zip", with(helper)).unwrap(), 3);
 }
 
@@ -60,11 +80,17 @@ fn paths_that_lead_elsewhere() {
         ("../\u{1b}[31m.png", "../\\u{1b}[31m.png"),
     ] {
         let words = refused("a.zip", with(shot(path)));
-        assert!(words.contains(shown) && !words.contains('\u{1b}'), "{words}");
+        assert!(
+            words.contains(shown) && !words.contains('\u{1b}'),
+            "{words}"
+        );
         let mut tar = tar_entry(path.as_bytes(), b'0', b"x");
         tar.extend(tar_of(&three(16, 12)));
         let words = refused("a.tar.gz", gzip(&tar));
-        assert!(words.contains(shown) && !words.contains('\u{1b}'), "{words}");
+        assert!(
+            words.contains(shown) && !words.contains('\u{1b}'),
+            "{words}"
+        );
     }
 }
 
@@ -75,22 +101,34 @@ fn names_twice_and_nothing() {
     // The same once backslashes are slashes.
     let both = zip(&[shot("a/1.png"), shot("a\\1.png"), shot("2.png")]);
     let words = refused("a.zip", both);
-    assert!(words.contains("two files of one name") && words.contains("a/1.png"), "{words}");
+    assert!(
+        words.contains("two files of one name") && words.contains("a/1.png"),
+        "{words}"
+    );
     let mut twice = three(16, 12);
     twice.push(twice[0].clone());
     let words = refused("a.tar", tar_of(&twice));
-    assert!(words.contains("two files of one name") && words.contains("1.png"), "{words}");
+    assert!(
+        words.contains("two files of one name") && words.contains("1.png"),
+        "{words}"
+    );
     for (name, bytes) in [
         ("a.zip", zip(&[])),
         ("a.zip", zip(&[ZipEntry::stored("photos/", b"")])),
         ("a.tar.gz", gzip(&tar_end())),
-        ("a.tar", [tar_entry(b"photos/", b'5', b""), tar_end()].concat()),
+        (
+            "a.tar",
+            [tar_entry(b"photos/", b'5', b""), tar_end()].concat(),
+        ),
     ] {
         let words = refused(name, bytes);
         assert!(words.contains("no files"), "{words}");
     }
     let error = read("a.zip", zip(&[ZipEntry::stored("notes.txt", b"nothing")])).unwrap_err();
-    assert!(matches!(&error, IoError::TooFewImages { name, found: 0, .. } if name == "a.zip"), "{error}");
+    assert!(
+        matches!(&error, IoError::TooFewImages { name, found: 0, .. } if name == "a.zip"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -106,16 +144,26 @@ fn bombs() {
     let words = refused("bomb.tgz", gzip(&tar_of(&files)));
     assert!(words.contains("unpack to more than"), "{words}");
     // One that says to be small unpacks to no more than it says.
-    let lying = ZipEntry { size: 1000, ..bomb.clone() };
+    let lying = ZipEntry {
+        size: 1000,
+        ..bomb.clone()
+    };
     let words = refused("bomb.zip", with(lying));
     assert!(words.contains("damage"), "{words}");
     // One that says to be large is not believed either: nothing is allocated for it.
-    let claimed = ZipEntry { size: u32::MAX - 1, ..shot("11.png") };
+    let claimed = ZipEntry {
+        size: u32::MAX - 1,
+        ..shot("11.png")
+    };
     let words = refused("bomb.zip", with(claimed));
     assert!(words.contains("unpack to more than"), "{words}");
     // Many entries that share their bytes: each is within the limit, all together are not.
     let shared: Vec<ZipEntry> = (0..40)
-        .map(|k| ZipEntry { packed: Vec::new(), size: 1 << 20, ..shot(&format!("{k}.png")) })
+        .map(|k| ZipEntry {
+            packed: Vec::new(),
+            size: 1 << 20,
+            ..shot(&format!("{k}.png"))
+        })
         .collect();
     let words = refused("bomb.zip", zip(&shared));
     assert!(words.contains("unpack to more than"), "{words}");
@@ -164,9 +212,15 @@ fn other_formats_are_known() {
         ("a.zip", b"Rar!\x1A\x07\x01\0", "RAR"),
     ] {
         let words = refused(name, mark.to_vec());
-        assert!(words.contains(format) && words.contains("unpack it"), "{words}");
+        assert!(
+            words.contains(format) && words.contains("unpack it"),
+            "{words}"
+        );
     }
-    for (bytes, found) in [(&b"<html>not found</html>"[..], "another kind"), (b"", "nothing")] {
+    for (bytes, found) in [
+        (&b"<html>not found</html>"[..], "another kind"),
+        (b"", "nothing"),
+    ] {
         let words = refused("a.zip", bytes.to_vec());
         assert!(words.contains(found), "{words}");
     }
@@ -174,14 +228,20 @@ fn other_formats_are_known() {
     assert!(words.contains("another file inside"), "{words}");
     let inner = file("photos.zip", zip_of(&three(16, 12)));
     let words = refused("a.zip", zip_of(&[inner]));
-    assert!(words.contains("photos.zip") && words.contains("another archive"), "{words}");
+    assert!(
+        words.contains("photos.zip") && words.contains("another archive"),
+        "{words}"
+    );
     // On the disk: the path is named.
     let place = tempfile::tempdir().unwrap();
     write_files(place.path(), &[("a.7z", b"7z\xBC\xAF\x27\x1C")]).unwrap();
     let path = place.path().join("a.7z");
     for given in [path.clone(), place.path().to_owned()] {
         let error = read_paths(&[given], &ReadOptions::default()).unwrap_err();
-        assert!(error.to_string().starts_with(&path.display().to_string()), "{error}");
+        assert!(
+            error.to_string().starts_with(&path.display().to_string()),
+            "{error}"
+        );
     }
 }
 
@@ -205,13 +265,14 @@ fn small() -> Vec<NamedBytes> {
         bytes.extend([10 * k, 20, 30 + k, 90 - k]);
         bytes
     };
-    (1..=3).map(|k| file(&format!("{k}.pgm"), picture(k))).collect()
+    (1..=3)
+        .map(|k| file(&format!("{k}.pgm"), picture(k)))
+        .collect()
 }
 
 #[test]
 fn cut_archives_are_refused() {
     for (name, whole) in all_ways(&small()) {
-        let expected = read(name, whole.clone());
         // Both blocks of zeros at the end of a tar are one mark.
         let needed = whole.len() - if name == "capture.tar" { 512 } else { 0 };
         for length in 1..needed {
@@ -221,7 +282,7 @@ fn cut_archives_are_refused() {
                 "{name} cut to {length}: {error}"
             );
         }
-        assert_eq!(read(name, whole).ok(), expected.ok(), "{name}");
+        assert_eq!(read(name, whole).unwrap(), 3, "{name}");
     }
 }
 
@@ -234,7 +295,15 @@ fn no_changed_byte_panics_or_passes() {
     for (name, archive) in all_ways(&small()) {
         let expected = whole(archive.clone(), name).unwrap();
         for at in 0..archive.len() {
-            for value in [0, 1, 0x7F, 0x80, 0xFF, archive[at] ^ 1, archive[at].wrapping_add(8)] {
+            for value in [
+                0,
+                1,
+                0x7F,
+                0x80,
+                0xFF,
+                archive[at] ^ 1,
+                archive[at].wrapping_add(8),
+            ] {
                 let mut bytes = archive.clone();
                 bytes[at] = value;
                 let read = whole(bytes, name);
@@ -242,8 +311,10 @@ fn no_changed_byte_panics_or_passes() {
                 if name != "capture.tar"
                     && let Ok(images) = read
                 {
-                    let samples = |images: &[normalight_core::StackImage]| {
-                        images.iter().map(|image| image.samples.clone()).collect::<Vec<_>>()
+                    // A changed name may change the order.
+                    let samples = |images: &[StackImage]| {
+                        let samples = images.iter().map(|image| format!("{:?}", image.samples));
+                        samples.collect::<BTreeSet<_>>()
                     };
                     assert_eq!(samples(&images), samples(&expected), "{name}, byte {at}");
                 }

@@ -52,17 +52,19 @@ impl ArchiveKind {
 
     /// The kind that a file's extension promises.
     pub(crate) fn of_extension(name: &str) -> Option<Self> {
-        Some(match split_extension(name).1.to_ascii_lowercase().as_str() {
-            "zip" => Self::Zip,
-            "tar" => Self::Tar,
-            "tgz" | "gz" | "taz" => Self::TarGz,
-            "7z" => Self::Unread("7-Zip"),
-            "rar" => Self::Unread("RAR"),
-            "xz" | "txz" => Self::Unread("xz"),
-            "bz2" | "tbz" | "tbz2" => Self::Unread("bzip2"),
-            "zst" | "tzst" => Self::Unread("Zstandard"),
-            _ => return None,
-        })
+        Some(
+            match split_extension(name).1.to_ascii_lowercase().as_str() {
+                "zip" => Self::Zip,
+                "tar" => Self::Tar,
+                "tgz" | "gz" | "taz" => Self::TarGz,
+                "7z" => Self::Unread("7-Zip"),
+                "rar" => Self::Unread("RAR"),
+                "xz" | "txz" => Self::Unread("xz"),
+                "bz2" | "tbz" | "tbz2" => Self::Unread("bzip2"),
+                "zst" | "tzst" => Self::Unread("Zstandard"),
+                _ => return None,
+            },
+        )
     }
 }
 
@@ -88,7 +90,10 @@ mod tests {
     fn content_and_extension() {
         for (head, kind) in [
             (&b"PK\x03\x04rest"[..], Some(ArchiveKind::Zip)),
-            (b"7z\xBC\xAF\x27\x1C\0\x04", Some(ArchiveKind::Unread("7-Zip"))),
+            (
+                b"7z\xBC\xAF\x27\x1C\0\x04",
+                Some(ArchiveKind::Unread("7-Zip")),
+            ),
             (b"\x1F\x8B\x08\0", Some(ArchiveKind::TarGz)),
             (b"\x89PNG\r\n\x1A\n", None),
             (b"PK", None),
@@ -104,7 +109,10 @@ mod tests {
             ("b.png", None),
             ("zip", None),
         ] {
-            assert_eq!(ArchiveKind::of_extension(name).map(ArchiveKind::label), kind);
+            assert_eq!(
+                ArchiveKind::of_extension(name).map(ArchiveKind::label),
+                kind
+            );
         }
     }
 

@@ -10,10 +10,8 @@ pub(super) fn inner_path(name: &str) -> Option<String> {
         .filter(|part| !part.is_empty() && *part != ".")
         .collect();
     let is_drive = matches!(slashes.as_bytes(), [letter, b':', ..] if letter.is_ascii_alphabetic());
-    let leads_out = slashes.starts_with('/')
-        || is_drive
-        || slashes.contains('\0')
-        || parts.contains(&"..");
+    let leads_out =
+        slashes.starts_with('/') || is_drive || slashes.contains('\0') || parts.contains(&"..");
     (!leads_out).then(|| parts.join("/"))
 }
 

@@ -52,7 +52,10 @@ pub(super) fn unpack(
     // An archive of nothing begins with its end mark, and damage will be met again.
     let is_blank = head.len() == HEAD && head.iter().all(|&byte| byte == 0);
     if peeked.is_ok() && !is_tar(&head) && !is_blank {
-        return Err(Fault::new("another file inside", "a tar archive within gzip"));
+        return Err(Fault::new(
+            "another file inside",
+            "a tar archive within gzip",
+        ));
     }
     source.rewind().map_err(Fault::damage)?;
     let limit = unpacked_limit(length);
@@ -210,7 +213,9 @@ impl<R: Read> Read for Metered<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let meter = &self.meter;
         let read = self.reader.read(buffer)?;
-        meter.ended.set(meter.ended.get() || (read == 0 && !buffer.is_empty()));
+        meter
+            .ended
+            .set(meter.ended.get() || (read == 0 && !buffer.is_empty()));
         meter.total.set(meter.total.get() + read as u64);
         if meter.total.get() > meter.limit {
             meter.exceeded.set(true);

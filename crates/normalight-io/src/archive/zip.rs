@@ -1,14 +1,12 @@
 //! Zip archives.
 use super::name::shown;
-use super::{
-    Content, Fault, Listing, ReadLimits, Source, Unread, check_count, unpacked_limit,
-};
+use super::{Content, Fault, Listing, ReadLimits, Source, Unread, check_count, unpacked_limit};
 use crate::plan::is_helper;
 use std::io::{Read, Seek, SeekFrom};
+use zip::CompressionMethod;
 use zip::ZipArchive;
 use zip::read::ZipFileEntry;
-use zip::CompressionMethod;
-use zip::result::{ZipError, ZipResult};
+use zip::result::ZipError;
 
 /// The files of a zip archive; each is unpacked when it is asked for.
 struct Zip {
@@ -29,7 +27,9 @@ pub(super) fn open(
     let (mut listing, mut places) = (Listing::default(), Vec::new());
     let (limit, mut total) = (unpacked_limit(length), 0u64);
     for index in 0..archive.len() {
-        let entry = archive.by_index_data(index).map_err(|error| fault(&error))?;
+        let entry = archive
+            .by_index_data(index)
+            .map_err(|error| fault(&error))?;
         let name = entry.name().map_err(|error| fault(&error))?;
         let path = listing.path(&name)?;
         if entry.is_dir() {
@@ -61,11 +61,17 @@ fn check_readable(entry: &ZipFileEntry<'_>, path: &str) -> Result<(), Fault> {
         ));
     }
     let method = entry.compression();
-    if matches!(method, CompressionMethod::Stored | CompressionMethod::Deflated) {
+    if matches!(
+        method,
+        CompressionMethod::Stored | CompressionMethod::Deflated
+    ) {
         return Ok(());
     }
     Err(Fault::new(
-        format!("a file ({}) compressed by {method}", shown(path)),
+        match method.to_string().as_str() {
+            "Unknown" => format!("a file ({}) compressed in an unknown way", shown(path)),
+            method => format!("a file ({}) compressed by {method}", shown(path)),
+        },
         "files that are stored or deflated: unpack it and give the folder",
     ))
 }
@@ -76,7 +82,10 @@ impl Content for Zip {
         if size > limits.most {
             return Err(Unread::TooLarge(size));
         }
-        let mut file = self.archive.by_index(place).map_err(|error| fault(&error))?;
+        let mut file = self
+            .archive
+            .by_index(place)
+            .map_err(|error| fault(&error))?;
         // The sizes of all files together are within the limit.
         let mut bytes = Vec::with_capacity(size as usize);
         let read = file.by_ref().take(size + 1).read_to_end(&mut bytes);
@@ -116,7 +125,9 @@ fn check_counts(source: &mut Box<dyn Source>, length: u64) -> Result<(), Fault> 
         let count = if record.starts_with(b"PK\x05\x06") {
             let field = record.get(10..).and_then(|rest| rest.first_chunk());
             // All bits stand for the number that zip64 states.
-            field.map(|&bytes| u64::from(u16::from_le_bytes(bytes))).filter(|&n| n != 0xFFFF)
+            field
+                .map(|&bytes| u64::from(u16::from_le_bytes(bytes)))
+                .filter(|&n| n != 0xFFFF)
         } else if record.starts_with(b"PK\x06\x06") {
             let field = record.get(32..).and_then(|rest| rest.first_chunk());
             field.map(|&bytes| u64::from_le_bytes(bytes))

@@ -12,7 +12,9 @@ use std::path::{Path, PathBuf};
 fn split(path: &Path) -> Option<(PathBuf, String)> {
     let archive = path.ancestors().skip(1).find(|above| above.is_file())?;
     let inner = path.strip_prefix(archive).ok()?.components();
-    let parts: Vec<_> = inner.map(|part| part.as_os_str().to_string_lossy()).collect();
+    let parts: Vec<_> = inner
+        .map(|part| part.as_os_str().to_string_lossy())
+        .collect();
     Some((archive.to_owned(), parts.join("/")))
 }
 
@@ -25,7 +27,6 @@ pub(super) fn read_folder_inside(
     let files = DiskFiles::new(vec![archive]);
     let missing = || Err(read_error(path, io::ErrorKind::NotFound.into()));
     Some(match Packed::open(Box::new(files), &folder) {
-        Ok(Ok(packed)) if packed.is_empty() => missing(),
         Ok(Ok(packed)) => packed.read(options),
         Ok(Err(_)) => missing(),
         Err(error) => Err(error),

@@ -37,7 +37,9 @@ pub(super) fn capture(whole: &str, paths: &[String]) -> Result<Place, IoError> {
         .filter(|(_, shots)| shots.len() >= MIN_IMAGES)
         .map(|(folder, _)| *folder)
         .collect();
-    let top = enough.iter().find(|top| enough.iter().all(|one| is_within(one, top)));
+    let top = enough
+        .iter()
+        .find(|top| enough.iter().all(|one| is_within(one, top)));
     let folder = match (top, &enough[..]) {
         (Some(folder), _) => folder,
         (None, []) => {
@@ -128,11 +130,26 @@ mod tests {
     fn one_folder_with_what_lies_above_it() {
         let (folder, kept, elsewhere) = found(
             &[("v/photos/", 4), ("v/", 1), ("v/photos/small/", 4)],
-            &["mask.png", "v/names.txt", "results/mask.png", "v/x.lp", "old/a.txt"],
+            &[
+                "mask.png",
+                "v/names.txt",
+                "results/mask.png",
+                "v/x.lp",
+                "old/a.txt",
+            ],
         );
         assert_eq!(folder, "v/photos");
-        let expected = ["v/photos/IMG_1.png", "v/photos/IMG_4.png", "mask.png", "v/names.txt"];
-        assert!(expected.iter().all(|path| kept.contains(&(*path).to_owned())));
+        let expected = [
+            "v/photos/IMG_1.png",
+            "v/photos/IMG_4.png",
+            "mask.png",
+            "v/names.txt",
+        ];
+        assert!(
+            expected
+                .iter()
+                .all(|path| kept.contains(&(*path).to_owned()))
+        );
         assert_eq!(kept.len(), 4 + 3);
         // The single one above, the thumbnails, and a mask elsewhere.
         assert_eq!(elsewhere.len(), 1 + 4 + 1);
@@ -140,8 +157,10 @@ mod tests {
 
     #[test]
     fn one_shot_in_each_folder_belongs_together() {
-        let (folder, kept, elsewhere) =
-            found(&[("light1/", 1), ("light2/", 1), ("light3/", 2)], &["mask.png"]);
+        let (folder, kept, elsewhere) = found(
+            &[("light1/", 1), ("light2/", 1), ("light3/", 2)],
+            &["mask.png"],
+        );
         assert_eq!((folder.as_str(), kept.len(), elsewhere.len()), ("", 5, 0));
     }
 
@@ -149,7 +168,10 @@ mod tests {
     fn several_captures_are_named() {
         let all = paths(&[("bear/", 5), ("cat/", 6), ("", 2)]);
         let error = capture("a.zip", &all).unwrap_err().to_string();
-        assert!(error.contains("a.zip") && error.contains("5 in bear, 6 in cat"), "{error}");
+        assert!(
+            error.contains("a.zip") && error.contains("5 in bear, 6 in cat"),
+            "{error}"
+        );
         // "bears" does not lie in "bear".
         assert!(capture("a.zip", &paths(&[("bear/", 5), ("bears/", 6)])).is_err());
         assert!(capture("a.zip", &paths(&[("bear/", 5), ("bear/s/", 6)])).is_ok());
@@ -157,8 +179,7 @@ mod tests {
 
     #[test]
     fn helpers_are_no_photographs() {
-        let (folder, kept, elsewhere) =
-            found(&[("v/", 3), ("__MACOSX/v/", 3)], &["v/._IMG_1.png"]);
+        let (folder, kept, elsewhere) = found(&[("v/", 3), ("__MACOSX/v/", 3)], &["v/._IMG_1.png"]);
         assert_eq!((folder.as_str(), kept.len(), elsewhere.len()), ("v", 7, 0));
     }
 }

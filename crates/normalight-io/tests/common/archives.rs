@@ -81,7 +81,9 @@ pub fn zip(entries: &[ZipEntry]) -> Vec<u8> {
 
 /// All files, deflated.
 pub fn zip_of(files: &[NamedBytes]) -> Vec<u8> {
-    let entries = files.iter().map(|file| ZipEntry::deflated(&file.name, &file.bytes));
+    let entries = files
+        .iter()
+        .map(|file| ZipEntry::deflated(&file.name, &file.bytes));
     zip(&entries.collect::<Vec<_>>())
 }
 
@@ -113,7 +115,11 @@ pub fn tar_of(files: &[NamedBytes]) -> Vec<u8> {
     for file in files {
         let mut name = file.name.as_bytes().to_vec();
         if name.len() > 99 {
-            tar.extend(tar_entry(b"././@LongLink", b'L', &[&name[..], b"\0"].concat()));
+            tar.extend(tar_entry(
+                b"././@LongLink",
+                b'L',
+                &[&name[..], b"\0"].concat(),
+            ));
             name.truncate(99);
         }
         tar.extend(tar_entry(&name, b'0', &file.bytes));
@@ -130,7 +136,9 @@ pub fn gzip(bytes: &[u8]) -> Vec<u8> {
 
 /// Every way to pack some files: a name that fits, and the archive.
 pub fn all_ways(files: &[NamedBytes]) -> [(&'static str, Vec<u8>); 4] {
-    let stored = files.iter().map(|file| ZipEntry::stored(&file.name, &file.bytes));
+    let stored = files
+        .iter()
+        .map(|file| ZipEntry::stored(&file.name, &file.bytes));
     [
         ("capture.zip", zip(&stored.collect::<Vec<_>>())),
         ("capture.zip", zip_of(files)),
