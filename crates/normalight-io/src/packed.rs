@@ -9,6 +9,7 @@ use crate::plan::{StackPlan, is_helper};
 use crate::source::{FileSource, LooseFiles, MemoryFiles, Planned};
 use crate::text::read_text;
 use crate::{IoError, NamedBytes, Notice, ReadOptions, StackInput};
+use std::collections::BTreeSet;
 
 /// Archives among some files, and what of all the files belongs to the capture.
 pub(crate) struct Packed {
@@ -44,77 +45,76 @@ impl Packed {
         mut files: Box<dyn LooseFiles>,
         folder: &str,
     ) -> Result<Result<Self, Box<dyn LooseFiles>>, IoError> {
-        let (mut archives, mut loose, mut notices) = (Vec::new(), Vec::new(), Vec::new());
-        for index in 0..files.names().len() {
-            let name = files.names()[index].clone();
-            match archive_kind(&mut *files, index)? {
-                Some(kind) => {
-                    notices.extend(other_extension(&name, kind));
-                    let label = files.label(index);
-                    archives.push(Archive::open(&label, kind, files.open(index)?)?);
-                }
-                None => loose.push((index, name)),
-            }
-        }
-        let is_alone = archives.len() == 1 && loose.iter().all(|(_, name)| is_helper(name));
+        let Opened {
+            archives,
+            loose,
+            mut notices,
+        } = Opened::among(&mut *files)?;
+        let is_helper_file = |&index: &usize| is_helper(&files.names()[index]);
+        let is_alone = archives.len() == 1 && loose.iter().all(is_helper_file);
+        let tops = match is_alone {
+            true => vec![String::new()],
+            false => tops(&archives),
+        };
         let (mut paths, mut places) = (Vec::new(), Vec::new());
-        for (index, name) in &loose {
-            paths.push(base_name(name).to_owned());
-            places.push(Place::Loose(*index));
+        for &index in &loose {
+            paths.push(base_name(&files.names()[index]).to_owned());
+            places.push(Place::Loose(index));
         }
         for (which, archive) in archives.iter().enumerate() {
             for (index, file) in archive.files.iter().enumerate() {
                 if place::is_within(place::folder_of(file), folder) {
-                    paths.push(match is_alone {
-                        true => file.clone(),
-                        false => format!("{}/{file}", base_name(&archive.name)),
-                    });
+                    paths.push(format!("{}{file}", tops[which]));
                     places.push(Place::Inside(which, index));
                 }
             }
         }
-        if places.iter().all(|place| matches!(place, Place::Loose(_))) {
+        if places.len() == loose.len() {
             return Ok(Err(files));
         }
+        check_pictures(&archives, &paths)?;
         let whole = match is_alone {
             true => archives[0].name.clone(),
             false => "the given files".to_owned(),
         };
-        check_pictures(&archives, &paths)?;
         let capture = place::capture(&whole, &paths)?;
-        for archive in &archives {
-            let name = base_name(&archive.name);
-            let folder = match is_alone {
-                true => Some(capture.folder.as_str()),
-                false => capture.folder.strip_prefix(name),
-            };
-            notices.push(Notice::FromArchive {
-                archive: name.to_owned(),
-                folder: folder
+        let elsewhere = capture.elsewhere.iter().map(|&index| &paths[index]);
+        let mut left_out: Vec<LeftOut> = elsewhere
+            .map(|path| LeftOut::new(path, LeftOutReason::OtherFolder))
+            .collect();
+        for (which, (archive, top)) in archives.iter().zip(&tops).enumerate() {
+            let is_of_use = capture.kept.iter().any(|&index| {
+                matches!(places[index], Place::Inside(one, _) if one == which)
+                    && !is_helper(&paths[index])
+            });
+            let name = base_name(&archive.name).to_owned();
+            if is_of_use {
+                let folder = capture.folder.strip_prefix(top.trim_end_matches('/'));
+                let folder = folder
                     .unwrap_or_default()
                     .trim_start_matches('/')
-                    .to_owned(),
-            });
+                    .to_owned();
+                notices.push(Notice::FromArchive {
+                    archive: name,
+                    folder,
+                });
+            } else {
+                left_out.push(LeftOut::new(&name, LeftOutReason::NotAnImage));
+            }
+            let links = archive.links.iter();
+            left_out.extend(links.map(|path| LeftOut::new(path, LeftOutReason::Link)));
         }
-        let elsewhere = capture.elsewhere.iter().map(|&index| &paths[index]);
-        let elsewhere = elsewhere.map(|path| LeftOut::new(path, LeftOutReason::OtherFolder));
-        let links = archives.iter().flat_map(|archive| &archive.links);
-        let links = links.map(|path| LeftOut::new(path, LeftOutReason::Link));
-        let said = StackPlan {
-            left_out: elsewhere.chain(links).collect(),
-            notices,
-            ..StackPlan::default()
-        };
+        let kept = capture.kept;
         Ok(Ok(Self {
-            names: capture
-                .kept
-                .iter()
-                .map(|&index| paths[index].clone())
-                .collect(),
-            places: capture.kept.iter().map(|&index| places[index]).collect(),
+            names: kept.iter().map(|&index| paths[index].clone()).collect(),
+            places: kept.iter().map(|&index| places[index]).collect(),
             loose: files,
             archives,
-            said,
+            said: StackPlan {
+                left_out,
+                notices,
+                ..StackPlan::default()
+            },
             whole,
         }))
     }
@@ -158,6 +158,47 @@ impl FileSource for Packed {
             Place::Inside(archive, file) => self.archives[archive].read(file, &limits),
         }
     }
+}
+
+/// Archives among some files.
+struct Opened {
+    archives: Vec<Archive>,
+    /// Positions of the other files.
+    loose: Vec<usize>,
+    notices: Vec<Notice>,
+}
+
+impl Opened {
+    fn among(files: &mut dyn LooseFiles) -> Result<Self, IoError> {
+        let (mut archives, mut loose, mut notices) = (Vec::new(), Vec::new(), Vec::new());
+        for index in 0..files.names().len() {
+            match archive_kind(files, index)? {
+                Some(kind) => {
+                    notices.extend(other_extension(&files.names()[index], kind));
+                    let label = files.label(index);
+                    archives.push(Archive::open(&label, kind, files.open(index)?)?);
+                }
+                None => loose.push(index),
+            }
+        }
+        Ok(Self {
+            archives,
+            loose,
+            notices,
+        })
+    }
+}
+
+/// What stands before the paths of each archive's files, with a slash: its name, or the way to it
+/// where two of one name would become one folder.
+fn tops(archives: &[Archive]) -> Vec<String> {
+    let names: BTreeSet<&str> = archives.iter().map(|one| base_name(&one.name)).collect();
+    let is_clear = names.len() == archives.len();
+    let top = |archive: &Archive| match is_clear {
+        true => format!("{}/", base_name(&archive.name)),
+        false => format!("{}/", archive.name),
+    };
+    archives.iter().map(top).collect()
 }
 
 /// The kind of a file that is an archive by its content.

@@ -262,7 +262,7 @@ fn files_with_holes_are_refused() {
 fn small() -> Vec<NamedBytes> {
     let picture = |k: u8| {
         let mut bytes = b"P5 2 2 255\n".to_vec();
-        bytes.extend([10 * k, 20, 30 + k, 90 - k]);
+        bytes.extend([200 / k, 50 * k, 30 + 40 * (k % 2), 90]);
         bytes
     };
     (1..=3)
