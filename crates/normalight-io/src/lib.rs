@@ -94,7 +94,7 @@ pub use native::{
     read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths, write_files,
 };
 pub use notice::Notice;
-pub use packed::UnpackedFiles;
+pub use packed::{UnpackedFiles, is_archive};
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};

@@ -292,3 +292,10 @@ impl UnpackedFiles {
         })
     }
 }
+
+/// Whether a file is an archive, or says so by its name: `head` are its first bytes, 512 of them
+/// where it has as many.
+pub fn is_archive(name: &str, head: &[u8]) -> bool {
+    let kind = ArchiveKind::of_content(head).or_else(|| ArchiveKind::of_extension(name));
+    kind.is_some() && !is_helper(name)
+}
