@@ -19,7 +19,7 @@ pub(super) fn open(
     mut source: Box<dyn Source>,
     length: u64,
 ) -> Result<(Listing, Box<dyn Content>), Fault> {
-    check_counts(&mut source, length)?;
+    check_zip64_count(&mut source, length)?;
     let archive = ZipArchive::new(source).map_err(|error| fault(&error))?;
     if archive.has_duplicate_names() {
         return Err(Fault::new("two files of one name", "each name once"));
@@ -109,10 +109,11 @@ fn fault(error: &ZipError) -> Fault {
     }
 }
 
-/// Refuses an archive that says to hold too many files, before anything is allocated for them: the
-/// records at its end state their number (APPNOTE.TXT 6.3.10 of PKWARE, 4.3.14 and 4.3.16).
-fn check_counts(source: &mut Box<dyn Source>, length: u64) -> Result<(), Fault> {
-    /// The record, the largest comment after it, and those of zip64 before it.
+/// Refuses an archive whose zip64 record says that it holds too many files, before anything is
+/// allocated for them (APPNOTE.TXT 6.3.10 of PKWARE, 4.3.14). Without such a record it is at most
+/// 65,535, which are counted when they are listed.
+fn check_zip64_count(source: &mut Box<dyn Source>, length: u64) -> Result<(), Fault> {
+    /// The last record, the largest comment after it, and those of zip64 before it.
     const TAIL: u64 = 22 + 0xFFFF + 20 + 56;
     let mut tail = Vec::new();
     source
@@ -120,21 +121,12 @@ fn check_counts(source: &mut Box<dyn Source>, length: u64) -> Result<(), Fault> 
         .and_then(|_| source.take(TAIL).read_to_end(&mut tail))
         .and_then(|_| source.rewind())
         .map_err(Fault::damage)?;
-    for at in 0..tail.len() {
-        let record = &tail[at..];
-        let count = if record.starts_with(b"PK\x05\x06") {
-            let field = record.get(10..).and_then(|rest| rest.first_chunk());
-            // All bits stand for the number that zip64 states.
-            field
-                .map(|&bytes| u64::from(u16::from_le_bytes(bytes)))
-                .filter(|&n| n != 0xFFFF)
-        } else if record.starts_with(b"PK\x06\x06") {
-            let field = record.get(32..).and_then(|rest| rest.first_chunk());
-            field.map(|&bytes| u64::from_le_bytes(bytes))
-        } else {
-            None
-        };
-        check_count(count.unwrap_or(0))?;
+    for (at, mark) in tail.windows(4).enumerate() {
+        if mark == b"PK\x06\x06"
+            && let Some(&count) = tail[at..].get(32..).and_then(|rest| rest.first_chunk())
+        {
+            check_count(u64::from_le_bytes(count))?;
+        }
     }
     Ok(())
 }
