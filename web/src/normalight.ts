@@ -11,6 +11,7 @@ import type {
   Plan,
   StackFile,
   Thumbnail,
+  UnpackedArchives,
 } from "./types.js";
 
 /**
@@ -83,6 +84,16 @@ export class Normalight {
   /** Which of the files are the photographs, in which order, and which is the mask. */
   plan(files: Iterable<StackFile>): Promise<Plan> {
     return this.#run("plan", { files: [...files] });
+  }
+
+  /**
+   * The files in archives (zip, tar, tar.gz) where there are no photographs beside them; nothing where there are, or
+   * no archive. `estimate` opens archives by itself: this is for who shows the photographs before.
+   *
+   * @throws NormalightError for a damaged or refused archive
+   */
+  unpack(files: Iterable<StackFile>): Promise<UnpackedArchives | undefined> {
+    return this.#run("unpack", { files: [...files] });
   }
 
   /** A photograph with its longer side brought down to `side` pixels; formats that browsers cannot show work too. */

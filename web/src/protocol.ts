@@ -9,12 +9,14 @@ import type {
   StackFile,
   Stage,
   Thumbnail,
+  UnpackedArchives,
 } from "./types.js";
 
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
   create: { request: { device: DeviceChoice }; response: DeviceReport };
   plan: { request: { files: readonly StackFile[] }; response: Plan };
+  unpack: { request: { files: readonly StackFile[] }; response: UnpackedArchives | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
   estimate: {
     request: {

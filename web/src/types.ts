@@ -42,6 +42,14 @@ export interface NamedFile {
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
 
+/** What archives among some files hold. */
+export interface UnpackedArchives {
+  /** The files beside the archives, and those of the captures in them, named by their paths there. */
+  readonly files: readonly File[];
+  /** The names of the archives. */
+  readonly archives: readonly string[];
+}
+
 /**
  * What shall compute: `auto` takes a real GPU and never one that is imitated in software, `gpu` takes what
  * WebGPU has to offer, `cpu` is the processor. Where WebGPU does not start, the processor steps in.

@@ -46,6 +46,8 @@ async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<
       return await create(wasm, message.request.device);
     case "plan":
       return wasm.plan(await Promise.all(message.request.files.map(readText)));
+    case "unpack":
+      return await unpack(wasm, message.request.files);
     case "thumbnail": {
       const { file, color, side } = message.request;
       return wasm.thumbnail(await read(file), color, side);
@@ -88,6 +90,39 @@ async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["e
       tell({ event: "plan", plan, words });
     },
   });
+}
+
+async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks["unpack"]["response"]> {
+  const plan = wasm.plan(await Promise.all(files.map(readText)));
+  if (plan.images.length > 0) return undefined;
+  const unpacked: File[] = [];
+  const archives: string[] = [];
+  for (const file of files) {
+    const archive = wasm.isArchive(file.name, await head(file))
+      ? wasm.Unpacked.open(await read(file))
+      : undefined;
+    if (archive === undefined) {
+      unpacked.push(file instanceof File ? file : new File([file.bytes], file.name));
+      continue;
+    }
+    try {
+      // One file after the other, so that the module never holds all of them.
+      for (const [index, name] of archive.names.entries()) {
+        unpacked.push(new File([archive.take(index) as Uint8Array<ArrayBuffer>], name));
+      }
+    } finally {
+      archive.free();
+    }
+    archives.push(file.name);
+  }
+  return archives.length > 0 ? { files: unpacked, archives } : undefined;
+}
+
+/** The first bytes of a file. */
+async function head(file: StackFile): Promise<Uint8Array> {
+  const length = 512;
+  if (!(file instanceof Blob)) return file.bytes.subarray(0, length);
+  return (await read(new File([file.slice(0, length)], file.name))).bytes;
 }
 
 async function read(file: StackFile): Promise<NamedFile> {

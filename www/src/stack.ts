@@ -26,6 +26,8 @@ export class Stack {
   readonly #problems = byId("file-problems");
   #entries: Entry[] = [];
   #plan: Plan = NOTHING;
+  /** The archives that the files came out of. */
+  #archives: readonly string[] = [];
   /** What is wrong with the files as a whole. */
   #problem = "";
   /** Ends the looking at files that are no longer asked for. */
@@ -48,6 +50,7 @@ export class Stack {
     const names = new Set(added.map(({ file }) => file.name));
     const kept = keep ? this.#entries.filter(({ file }) => !names.has(file.name)) : [];
     this.#entries = [...kept, ...added];
+    if (!keep) this.#archives = [];
     this.#look();
   }
 
@@ -81,6 +84,13 @@ export class Stack {
     const [entries, color] = [this.#entries, this.#color];
     this.#problem = "";
     try {
+      const unpacked = await this.#engine.with((normalight) => normalight.unpack(this.files));
+      if (signal.aborted) return;
+      if (unpacked && this.#archives.length === 0) {
+        this.#entries = unpacked.files.map((file) => this.#entry(file));
+        this.#archives = unpacked.archives;
+        return await this.#look();
+      }
       const plan = await this.#engine.with((normalight) => normalight.plan(this.files));
       if (signal.aborted) return;
       this.#plan = plan;
@@ -139,6 +149,7 @@ export class Stack {
     if (maskFile) words.push(`mask ${maskFile.file.name}`);
     const other = this.#entries.length - images.length - (maskFile ? 1 : 0);
     if (other > 0) words.push(other === 1 ? "1 other file" : `${other} other files`);
+    if (this.#archives.length > 0) words.push(`out of ${this.#archives.join(", ")}`);
     return words.join(" · ");
   }
 }

@@ -52,7 +52,10 @@ const cases = [
   ],
   [
     "a list decides about the photographs and their order",
-    [...golden, { name: "filenames.txt", bytes: text.encode("005.png\r\n003.PNG\r\n001.png\r\n007.png\r\n") }],
+    [
+      ...golden,
+      { name: "filenames.txt", bytes: text.encode("005.png\r\n003.PNG\r\n001.png\r\n007.png\r\n") },
+    ],
     [/not in the list/],
     [/^photographs: 4 \(as filenames\.txt lists them\): 005\.png, 003\.png, 001\.png, 007\.png/],
   ],

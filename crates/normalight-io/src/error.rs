@@ -95,6 +95,18 @@ pub enum IoError {
         /// The folders below with their numbers of photographs, in words.
         below: String,
     },
+    /// An archive is damaged, of a format that is not read, too large, or holds what is refused.
+    #[error("{name}: {format} archive with {found}; expected {expected}")]
+    Archive {
+        /// The archive.
+        name: String,
+        /// Its format.
+        format: &'static str,
+        /// What is wrong with it.
+        found: String,
+        /// What was expected.
+        expected: String,
+    },
     /// The same shots lie side by side in two formats or depths.
     #[error(
         "{first} and {second}: the same shot twice, as {shots} of the shots; give one kind of them only"

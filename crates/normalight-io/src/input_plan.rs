@@ -83,6 +83,12 @@ pub enum LeftOutReason {
         /// The format.
         format: String,
     },
+    /// An archive beside photographs or in another archive: it is not opened.
+    Archive,
+    /// A link in an archive: it is not followed.
+    Link,
+    /// It lies in another folder of its archive than the photographs.
+    OtherFolder,
     /// No image at all.
     NotAnImage,
     /// A helper file of an operating system.
@@ -107,6 +113,9 @@ impl fmt::Display for LeftOutReason {
                     "{format}, which is not read; export it as TIFF or PNG of 16 bits"
                 )
             }
+            Self::Archive => f.write_str("an archive, not opened: give it alone"),
+            Self::Link => f.write_str("a link, not followed"),
+            Self::OtherFolder => f.write_str("in another folder than the photographs"),
             Self::NotAnImage => f.write_str("no image"),
             Self::System => f.write_str("a helper file of the system"),
         }

@@ -29,6 +29,7 @@
 //! ```
 #![deny(missing_docs)]
 
+mod archive;
 mod assemble;
 mod color;
 mod decode;
@@ -51,12 +52,14 @@ mod mask_file;
 mod mesh;
 mod names;
 mod notice;
+mod packed;
 mod photographs;
 mod plan;
 mod previews;
 mod report;
 mod result_files;
 mod shots;
+mod source;
 mod stack;
 mod text;
 mod turn;
@@ -77,7 +80,10 @@ pub use light_exports::{lights_csv, lights_lp};
 pub use light_file::GivenLights;
 pub use light_map::lights_svg;
 pub use light_match::read_lights;
-pub use limits::{MAX_FILE_BYTES, MAX_MESH_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES};
+pub use limits::{
+    MAX_ARCHIVE_BYTES, MAX_ARCHIVE_FILES, MAX_ARCHIVE_RATIO, MAX_FILE_BYTES, MAX_MESH_BYTES,
+    MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES,
+};
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
 pub use mask_file::decode_mask;
 pub use mesh::read_mesh;
@@ -90,6 +96,7 @@ pub use native::{
     sweep_leftovers, write_files,
 };
 pub use notice::Notice;
+pub use packed::{UnpackedFiles, is_archive};
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, find_list, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};

@@ -21,3 +21,19 @@ pub const MAX_MESH_BYTES: u64 = 256 << 20;
 
 /// Most vertices of one mesh: as many as its triangles can use.
 pub(crate) const MAX_MESH_VERTICES: usize = 3 * normalight_core::MAX_TRIANGLES;
+
+/// Most entries of an archive, folders included.
+pub const MAX_ARCHIVE_FILES: usize = 10_000;
+
+/// Most bytes that an archive may unpack to: as many as the samples of a stack may take.
+pub const MAX_ARCHIVE_BYTES: u64 = MAX_STACK_BYTES;
+
+/// How many times its own size an archive may unpack to. Photographs shrink little; renderings on
+/// black, stored without compression of their own, shrink some fifty times.
+pub const MAX_ARCHIVE_RATIO: u64 = 200;
+
+/// Unpacked bytes that no ratio is asked of: a handful of empty masks shrinks a thousand times.
+pub(crate) const ARCHIVE_BYTES_AT_ANY_RATIO: u64 = 16 << 20;
+
+/// Most bytes between two files of a tar archive: headers, long names and attributes.
+pub(crate) const MAX_TAR_HEADER_BYTES: u64 = 1 << 20;

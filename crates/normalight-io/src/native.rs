@@ -1,7 +1,9 @@
 //! The only part of this crate that touches the file system.
 mod aside;
 mod diligent;
+mod disk;
 mod files;
+mod inside;
 mod intensities;
 mod matlab;
 mod meshes;

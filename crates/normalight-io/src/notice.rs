@@ -17,6 +17,14 @@ pub enum Notice {
         /// The extension, without its dot.
         extension: String,
     },
+    /// The files came out of an archive.
+    FromArchive {
+        /// The archive.
+        archive: String,
+        /// The folder in it that holds the photographs; empty for none, or for several with a
+        /// photograph or two each.
+        folder: String,
+    },
     /// A list names files with other extensions than they have.
     ListByStem {
         /// The list.
@@ -174,6 +182,13 @@ impl fmt::Display for Notice {
             Self::ContentOverExtension { file, content, extension } => write!(
                 f,
                 "{file}: the content is {content} though the extension is {extension:?}; read as {content}"
+            ),
+            Self::FromArchive { archive, folder } if folder.is_empty() => {
+                write!(f, "{archive}: an archive, read without unpacking it to the disk")
+            }
+            Self::FromArchive { archive, folder } => write!(
+                f,
+                "{archive}: an archive, read without unpacking it to the disk; photographs from its folder {folder}"
             ),
             Self::ListByStem { list } => write!(
                 f,

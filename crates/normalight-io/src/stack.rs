@@ -1,29 +1,24 @@
 //! From files to a stack; where the bytes come from is the caller's affair.
-use crate::assemble::assemble;
-use crate::plan::{find_list, plan_stack};
-use crate::text::read_text;
+use crate::source::{MemoryFiles, read_files};
 use crate::{IoError, NamedBytes, ReadOptions, StackInput};
 
 /// Reads a stack from files in memory: images, and possibly a list and a mask, see
-/// [`plan_stack`]. Each file is dropped once it is decoded; files that are no images are left out.
+/// [`plan_stack`](crate::plan_stack). Each file is dropped once it is decoded; files that are no
+/// images are left out.
+///
+/// Zip, tar and tar.gz archives, known by their content, are opened where the images beside them
+/// are too few for a stack: their files count as if they were handed in, with their paths as names.
+/// Of an archive with several folders, the one with photographs counts and those above it. Each
+/// file is unpacked when it is its turn (a tar.gz at once). The limits are
+/// [`MAX_ARCHIVE_FILES`](crate::MAX_ARCHIVE_FILES), [`MAX_ARCHIVE_BYTES`](crate::MAX_ARCHIVE_BYTES)
+/// and [`MAX_ARCHIVE_RATIO`](crate::MAX_ARCHIVE_RATIO).
 ///
 /// # Errors
-/// Any [`IoError`] about a list or an image; [`IoError::TooFewImages`] or
+/// Any [`IoError`] about a list, an image or an archive; [`IoError::TooFewImages`] or
 /// [`IoError::TooFewRequested`]; [`IoError::NotAnImage`] when there are only other files;
+/// [`IoError::PhotographsBelow`] for several folders of photographs in an archive;
 /// [`IoError::AllIdentical`]; [`IoError::Core`] for images of different sizes, NaN, a mask of
 /// another size, an empty mask or nothing but black.
 pub fn read_stack(files: Vec<NamedBytes>, options: &ReadOptions) -> Result<StackInput, IoError> {
-    let names: Vec<String> = files.iter().map(|file| file.name.clone()).collect();
-    let list = find_list(&names, |index| {
-        read_text(&names[index], &files[index].bytes)
-    })?;
-    let list = list
-        .as_ref()
-        .map(|(index, text)| (names[*index].as_str(), text.as_str()));
-    let place = list.map_or("the given files", |(name, _)| name).to_owned();
-    let plan = plan_stack(&names, list)?;
-    let mut contents: Vec<Vec<u8>> = files.into_iter().map(|file| file.bytes).collect();
-    assemble(&place, &names, plan, options, |index| {
-        Ok(std::mem::take(&mut contents[index]))
-    })
+    read_files(None, Box::new(MemoryFiles::new(files)), options)
 }

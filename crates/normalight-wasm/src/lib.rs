@@ -12,6 +12,7 @@ mod result;
 mod settings;
 mod stage;
 mod start;
+mod unpack;
 
 pub use callback::ProgressCallback;
 pub use engine::Engine;
@@ -20,3 +21,4 @@ pub use inspect::{Plan, Thumbnail, plan, thumbnail};
 pub use result::Estimated;
 pub use settings::{MaskSetting, Settings};
 pub use start::start;
+pub use unpack::{Unpacked, is_archive};

@@ -9,11 +9,13 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = ESTIMATE_EXAMPLES)]
 pub(crate) struct EstimateArgs {
-    /// A folder of photographs, or the photographs themselves.
+    /// A folder of photographs, the photographs themselves, or an archive of them.
     ///
     /// PNG, JPEG, TIFF, TGA, BMP, WebP or EXR, all of one size. In a folder, a list file
     /// (filenames.txt or names.txt) decides which files are the photographs and in which order;
-    /// without one it is all images but those named mask, normal, albedo, depth or ambient.
+    /// without one it is all images but those named mask, normal, albedo, depth or ambient. Zip, tar
+    /// and tar.gz archives are read without unpacking them to the disk; capture.zip/photos is a
+    /// folder in one.
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
     /// Folder for the results; made when missing.

@@ -1,13 +1,15 @@
+use super::inside::read_file_inside;
 use crate::limits::MAX_FILE_BYTES;
 use crate::{IoError, NamedBytes};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Reads a file as [`NamedBytes`], for example a mask that was given.
+/// Reads a file as [`NamedBytes`], for example a mask that was given. The path may lead into an
+/// archive: `capture.zip/mask.png`.
 ///
 /// # Errors
-/// [`IoError::Read`] or [`IoError::FileTooLarge`].
+/// [`IoError::Read`], [`IoError::FileTooLarge`] or [`IoError::Archive`].
 pub fn read_named(path: &Path) -> Result<NamedBytes, IoError> {
     Ok(NamedBytes {
         name: file_name(path),
@@ -15,10 +17,16 @@ pub fn read_named(path: &Path) -> Result<NamedBytes, IoError> {
     })
 }
 
-/// Content of a file of at most `limit` bytes.
+/// Content of a file of at most `limit` bytes; the path may lead into an archive.
 pub(crate) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, IoError> {
     let failed = |reason| read_error(path, reason);
-    let file = File::open(path).map_err(failed)?;
+    let file = match File::open(path) {
+        Ok(file) => file,
+        Err(reason) => {
+            let inside = read_file_inside(path, limit);
+            return inside.unwrap_or_else(|| Err(failed(reason)));
+        }
+    };
     let found = file.metadata().map_err(failed)?.len();
     let too_large = |found| IoError::FileTooLarge {
         name: display(path),

@@ -1,50 +1,62 @@
+use super::disk::DiskFiles;
 use super::files::{display, file_name, read_error, read_file};
-use crate::assemble::assemble;
+use super::inside::read_folder_inside;
+use crate::archive::{ArchiveKind, HEAD};
 use crate::format::{READ_FORMATS, format_of_extension, not_an_image};
 use crate::light_file::GivenLights;
 use crate::light_file::LightFile;
-use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
-use crate::plan::{find_list, plan_stack};
-use crate::text::read_text;
+use crate::limits::MAX_TEXT_BYTES;
+use crate::plan::plan_stack;
+use crate::source::{LooseFiles, read_files};
 use crate::{IoError, LightAxes, ReadOptions, StackInput};
 use normalight_core::Light;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads a stack: one folder, or several image files. One file is in memory at a time, and only
-/// the picked images are read.
+/// Reads a stack: one folder, one archive, or several files. One file is in memory at a time (all
+/// of a tar.gz archive), and only the picked images are read.
 ///
 /// In a folder, files that are no images are ignored and a list or a mask counts, see
-/// [`plan_stack`]. A file that is given must be an image.
+/// [`plan_stack`]. A file that is given must be an image or an archive; what an archive is and what
+/// of it counts, [`read_stack`](crate::read_stack) says. A path may lead to a folder in an archive:
+/// `capture.zip/photos`.
 ///
 /// # Errors
 /// Those of [`read_stack`](crate::read_stack), [`IoError::Read`], and [`IoError::NotAnImage`] for a
-/// given file that is none.
+/// given file that is neither image nor archive.
 pub fn read_paths(paths: &[PathBuf], options: &ReadOptions) -> Result<StackInput, IoError> {
-    if let [folder] = paths
-        && folder.is_dir()
-    {
-        return read_folder(folder, options);
+    if let [path] = paths {
+        if path.is_dir() {
+            return read_folder(path, options);
+        }
+        if !path.exists()
+            && let Some(input) = read_folder_inside(path, options)
+        {
+            return input;
+        }
     }
     for path in paths {
         fs::metadata(path).map_err(|reason| read_error(path, reason))?;
-        let name = display(path);
         if path.is_dir() {
             return Err(IoError::NotAnImage {
-                name,
+                name: display(path),
                 found: "a folder among several paths".to_owned(),
                 expected: READ_FORMATS,
             });
         }
-        if format_of_extension(&name).is_none() {
+    }
+    let mut files = DiskFiles::new(paths.to_vec());
+    for (index, path) in paths.iter().enumerate() {
+        let name = display(path);
+        // The name of an archive promises enough: what is wrong with it is said when it is opened.
+        let is_known = format_of_extension(&name).is_some()
+            || ArchiveKind::of_extension(&name).is_some()
+            || ArchiveKind::of_content(&files.head(index, HEAD)?).is_some();
+        if !is_known {
             return Err(not_an_image(&name));
         }
     }
-    let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
-    let plan = plan_stack(&names, None)?;
-    assemble("the given files", &names, plan, options, |index| {
-        read_file(&paths[index], MAX_FILE_BYTES)
-    })
+    read_files(Some("the given files"), Box::new(files), options)
 }
 
 fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoError> {
@@ -57,26 +69,12 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
     }
     // The system hands names out in any order.
     paths.sort();
-    let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
-    let list = find_list(&names, |index| {
-        let bytes = read_file(&paths[index], MAX_TEXT_BYTES)?;
-        read_text(&names[index], &bytes)
-    })?;
-    let list = list.map(|(index, text)| (display(&paths[index]), text));
-    let list = list
-        .as_ref()
-        .map(|(path, text)| (path.as_str(), text.as_str()));
-    let plan = plan_stack(&names, list)?;
-    if plan.images.is_empty() && list.is_none() {
-        look_below(folder)?;
-    }
-    assemble(&display(folder), &names, plan, options, |index| {
-        read_file(&paths[index], MAX_FILE_BYTES)
-    })
+    let files = DiskFiles::of_folder(folder.to_owned(), paths);
+    read_files(Some(&display(folder)), Box::new(files), options)
 }
 
 /// Where photographs lie one folder down, which is how projects of RTI programs are laid out.
-fn look_below(folder: &Path) -> Result<(), IoError> {
+pub(super) fn look_below(folder: &Path) -> Result<(), IoError> {
     let mut below = Vec::new();
     let failed = |reason| read_error(folder, reason);
     for entry in fs::read_dir(folder).map_err(failed)? {

@@ -1,4 +1,5 @@
 //! What a file's name says about it.
+use crate::archive::ArchiveKind;
 use crate::format::{base_name, format_of_extension, is_foreign, split_extension};
 use crate::input_plan::LeftOutReason;
 use crate::names::{folded, stem};
@@ -124,6 +125,9 @@ pub(super) fn left_out_reason(name: &str) -> Option<LeftOutReason> {
     }
     if !is_foreign(name) {
         return None;
+    }
+    if ArchiveKind::of_extension(name).is_some() {
+        return Some(LeftOutReason::Archive);
     }
     let extension = split_extension(name).1.to_ascii_lowercase();
     Some(match crate::format::unread_format(&extension) {

@@ -1,6 +1,7 @@
 //! Small pictures in every format, made by an independent encoder.
 #![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![allow(dead_code)]
+pub mod archives;
 pub mod meshes;
 pub mod published;
 

@@ -1,0 +1,79 @@
+//! Files on a disk, as an input.
+use super::files::{display, file_name, read_error, read_file};
+use super::read::look_below;
+use crate::IoError;
+use crate::archive::Source;
+use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
+use crate::source::{FileSource, LooseFiles};
+use crate::text::read_text;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::PathBuf;
+
+/// Files of a folder, or files that were given.
+pub(super) struct DiskFiles {
+    pub(super) paths: Vec<PathBuf>,
+    names: Vec<String>,
+    /// The folder, when all of its files are meant.
+    folder: Option<PathBuf>,
+}
+
+impl DiskFiles {
+    pub(super) fn new(paths: Vec<PathBuf>) -> Self {
+        Self {
+            names: paths.iter().map(|path| file_name(path)).collect(),
+            paths,
+            folder: None,
+        }
+    }
+
+    pub(super) fn of_folder(folder: PathBuf, paths: Vec<PathBuf>) -> Self {
+        Self {
+            folder: Some(folder),
+            ..Self::new(paths)
+        }
+    }
+}
+
+impl FileSource for DiskFiles {
+    fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn label(&self, index: usize) -> String {
+        display(&self.paths[index])
+    }
+
+    fn text(&mut self, index: usize) -> Result<String, IoError> {
+        let bytes = read_file(&self.paths[index], MAX_TEXT_BYTES)?;
+        read_text(&self.names[index], &bytes)
+    }
+
+    fn take(&mut self, index: usize) -> Result<Vec<u8>, IoError> {
+        read_file(&self.paths[index], MAX_FILE_BYTES)
+    }
+}
+
+impl LooseFiles for DiskFiles {
+    fn head(&mut self, index: usize, length: usize) -> Result<Vec<u8>, IoError> {
+        let path = &self.paths[index];
+        let mut head = Vec::new();
+        // What a pipe has given is gone.
+        if path.is_file() {
+            File::open(path)
+                .and_then(|file| file.take(length as u64).read_to_end(&mut head))
+                .map_err(|reason| read_error(path, reason))?;
+        }
+        Ok(head)
+    }
+
+    fn open(&mut self, index: usize) -> Result<Box<dyn Source>, IoError> {
+        let path = &self.paths[index];
+        let file = File::open(path).map_err(|reason| read_error(path, reason))?;
+        Ok(Box::new(BufReader::new(file)))
+    }
+
+    fn look_elsewhere(&self) -> Result<(), IoError> {
+        self.folder.as_deref().map_or(Ok(()), look_below)
+    }
+}
