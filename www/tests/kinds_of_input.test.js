@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { commandResults, goldenStack, greyPng } from "./support/files.js";
+import { normalDifference } from "./support/compare.js";
+import { commandResults, goldenStack, greyPng, zipOf } from "./support/files.js";
 import { Page } from "./support/page.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
@@ -85,6 +86,19 @@ for (const [what, files, before, after] of cases) {
     page.assertQuiet();
   });
 }
+
+test("a zip is a capture like any other", async () => {
+  const inside = golden.map((file) => ({ ...file, name: `vase/${file.name}` }));
+  const rubbish = { name: "__MACOSX/vase/._001.png", bytes: text.encode("finder") };
+  await page.upload([zipOf("capture.zip", [...inside, rubbish])]);
+  await page.thumbnails(golden.length);
+  assert.match((await page.page.textContent("#stack-words")) ?? "", /out of capture\.zip/);
+  assert.equal(await page.estimate(), "");
+  const expected = commandResults(golden).get("normals.npy") ?? new Uint8Array();
+  const degrees = normalDifference(expected, await page.download("normals.npy"));
+  assert.ok(degrees < 0.1, `${degrees} degrees`);
+  page.assertQuiet();
+});
 
 test("what is doubtful is shown before the result, and goes with the photographs", async () => {
   await page.upload([...photographs, { name: "rejected.txt", bytes: text.encode("001.png\n") }]);

@@ -90,6 +90,42 @@ export function hugePng(name) {
   return { name, bytes: pngOf(20_000, 20_000, deflateSync(Buffer.alloc(100))) };
 }
 
+/**
+ * A zip of files as they are, without compression.
+ * @param {string} name @param {TestFile[]} files @returns {TestFile}
+ */
+export function zipOf(name, files) {
+  /** @type {Buffer[]} */
+  const parts = [];
+  /** @type {Buffer[]} */
+  const directory = [];
+  let offset = 0;
+  for (const file of files) {
+    const path = Buffer.from(file.name, "utf8");
+    const about = Buffer.alloc(26);
+    // Version 2.0, names in UTF-8, stored.
+    about.writeUInt16LE(20, 0);
+    about.writeUInt16LE(0x800, 2);
+    about.writeUInt32LE(crc32(file.bytes), 10);
+    about.writeUInt32LE(file.bytes.length, 14);
+    about.writeUInt32LE(file.bytes.length, 18);
+    about.writeUInt16LE(path.length, 22);
+    const place = Buffer.alloc(14);
+    place.writeUInt32LE(offset, 10);
+    const local = Buffer.concat([Buffer.from("PK\x03\x04", "latin1"), about, path, Buffer.from(file.bytes)]);
+    parts.push(local);
+    directory.push(Buffer.from("PK\x01\x02\x14\x00", "latin1"), about, place, path);
+    offset += local.length;
+  }
+  const list = Buffer.concat(directory);
+  const end = Buffer.alloc(18);
+  end.writeUInt16LE(files.length, 4);
+  end.writeUInt16LE(files.length, 6);
+  end.writeUInt32LE(list.length, 8);
+  end.writeUInt32LE(offset, 12);
+  return { name, bytes: Buffer.concat([...parts, list, Buffer.from("PK\x05\x06", "latin1"), end]) };
+}
+
 /** @param {number} width @param {number} height @param {Buffer} data */
 function pngOf(width, height, data) {
   const header = Buffer.alloc(13);
