@@ -8,11 +8,12 @@ use crate::{IoError, NamedBytes, ReadOptions, StackInput};
 /// [`plan_stack`]. Each file is dropped once it is decoded; files that are no images are left out.
 ///
 /// # Errors
-/// Any [`IoError`] about a list or an image; [`IoError::TooFewImages`] or
+/// Any [`IoError`] about a list or an image; [`IoError::TooManyFiles`]; [`IoError::TooFewImages`] or
 /// [`IoError::TooFewRequested`]; [`IoError::NotAnImage`] when there are only other files;
 /// [`IoError::AllIdentical`]; [`IoError::Core`] for images of different sizes, NaN, a mask of
 /// another size, an empty mask or nothing but black.
 pub fn read_stack(files: Vec<NamedBytes>, options: &ReadOptions) -> Result<StackInput, IoError> {
+    options.limits.check_files("the given files", files.len())?;
     let names: Vec<String> = files.iter().map(|file| file.name.clone()).collect();
     let list = find_list(&names, |index| {
         read_text(&names[index], &files[index].bytes)

@@ -3,7 +3,7 @@ use crate::assemble::assemble;
 use crate::format::{READ_FORMATS, format_of_extension, not_an_image};
 use crate::light_file::GivenLights;
 use crate::light_file::LightFile;
-use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
+use crate::limits::MAX_TEXT_BYTES;
 use crate::plan::{find_list, plan_stack};
 use crate::text::read_text;
 use crate::{IoError, LightAxes, ReadOptions, StackInput};
@@ -43,7 +43,7 @@ pub fn read_paths(paths: &[PathBuf], options: &ReadOptions) -> Result<StackInput
     let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
     let plan = plan_stack(&names, None)?;
     assemble("the given files", &names, plan, options, |index| {
-        read_file(&paths[index], MAX_FILE_BYTES)
+        read_file(&paths[index], options.limits.file_bytes)
     })
 }
 
@@ -55,11 +55,12 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
             paths.push(path);
         }
     }
+    options.limits.check_files(&display(folder), paths.len())?;
     // The system hands names out in any order.
     paths.sort();
     let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
     let list = find_list(&names, |index| {
-        let bytes = read_file(&paths[index], MAX_TEXT_BYTES)?;
+        let bytes = read_file(&paths[index], options.limits.text_bytes)?;
         read_text(&names[index], &bytes)
     })?;
     let list = list.map(|(index, text)| (display(&paths[index]), text));
@@ -71,7 +72,7 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
         look_below(folder)?;
     }
     assemble(&display(folder), &names, plan, options, |index| {
-        read_file(&paths[index], MAX_FILE_BYTES)
+        read_file(&paths[index], options.limits.file_bytes)
     })
 }
 
