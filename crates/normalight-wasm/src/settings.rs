@@ -57,6 +57,7 @@ impl Settings {
                 (None, MaskSetting::None) => MaskChoice::WholeFrame,
             },
             images: self.images,
+            ..ReadOptions::default()
         }
     }
 

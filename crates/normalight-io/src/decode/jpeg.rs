@@ -8,21 +8,22 @@ use crate::color::profile::Profile;
 use crate::{IoError, Notice};
 use image::metadata::Orientation;
 use normalight_core::Samples;
+use std::borrow::Cow;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// Decodes a whole JPEG; one that is damaged is refused, where `image` would fill what is missing
-/// with grey.
+/// with grey. Not seen is damage that leaves a progressive JPEG coarse, and the loss of less than
+/// the last row of blocks.
 pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
     let bytes = source.bytes;
     let frame = marks::frame(bytes).ok_or_else(|| source.damaged("it has no frame"))?;
     source.check_size(frame.width, frame.height)?;
     check_kind(source, &frame)?;
-    if marks::end(bytes).is_none() {
-        return Err(source.damaged("its end is missing"));
-    }
+    let end = marks::end(bytes).ok_or_else(|| source.damaged("its end is missing"))?;
+    let bytes = to_decode(&bytes[..end], &frame);
     let grey = frame.components == 1;
     let space = if grey {
         ColorSpace::Luma
@@ -35,7 +36,7 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
         .set_strict_mode(false)
         .jpeg_set_out_colorspace(space);
     let failed = |error| source.damaged(format!("{error}"));
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes.as_ref()), options);
     decoder.decode_headers().map_err(failed)?;
     // Stray bytes between headers are common and harmless, damage in the picture is neither.
     decoder.set_options(options.set_strict_mode(true));
@@ -53,7 +54,7 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
     let orientation = decoder.exif();
     let orientation = orientation.and_then(|exif| Orientation::from_exif_chunk(exif));
     let mut notices = Vec::new();
-    let pictures = marks::pictures(bytes);
+    let pictures = marks::pictures(source.bytes);
     if pictures > 1 {
         notices.push(Notice::SeveralPages {
             file: source.name.to_owned(),
@@ -71,6 +72,16 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
         orientation: orientation.unwrap_or(Orientation::NoTransforms),
         notices,
     })
+}
+
+/// A JPEG of one scan with a few zeros for its end mark: before an end mark the decoder fills what
+/// is missing in silence, but where a file ends it complains. The zeros are what it looks ahead.
+fn to_decode<'a>(whole: &'a [u8], frame: &marks::Frame) -> Cow<'a, [u8]> {
+    const AHEAD: [u8; 16] = [0; 16];
+    if frame.progressive || marks::scans(whole) != 1 {
+        return Cow::Borrowed(whole);
+    }
+    Cow::Owned([&whole[..whole.len() - 2], &AHEAD].concat())
 }
 
 fn check_kind(source: &Source, frame: &marks::Frame) -> Result<(), IoError> {

@@ -30,10 +30,7 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
     let pages::Pages { page, number, of } = pages::find(source, &file)?;
     let layout = Layout::new(source, &page)?;
     let meaning = Meaning::new(source, &page, &layout)?;
-    let bare = Bare::new(source, &file, &layout, page.bytes(tags::JPEG_TABLES))?;
-    let decoded = unpacked(source, bare)?;
-    let codes = Codes::new(decoded, &layout)
-        .ok_or_else(|| source.damaged("its samples do not fill its size"))?;
+    let codes = chosen(source, &page, &layout, &meaning.places())?;
     let mut notices = Vec::new();
     if of > 1 {
         notices.push(Notice::SeveralPages {
@@ -43,7 +40,7 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
         });
     }
     notices.extend(meaning.notice(source, &layout));
-    let samples = meaning.apply(source, &page, codes, layout.samples)?;
+    let samples = meaning.apply(source, &page, codes)?;
     let orientation = page
         .one(tags::ORIENTATION)
         .map(|value| value.min(255) as u8);
@@ -59,6 +56,26 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
             .unwrap_or(Orientation::NoTransforms),
         notices,
     })
+}
+
+/// Some channels of a page. Planes are read one by one, as pages of their own: the library takes
+/// the last tiles of all but the first for whole ones.
+fn chosen<'a>(
+    source: &Source<'a>,
+    page: &Directory<'a>,
+    layout: &Layout,
+    places: &[usize],
+) -> Result<Codes, IoError> {
+    let missing = || source.damaged("its samples do not fill its size");
+    let codes = |layout: &Layout| {
+        let bare = Bare::new(source, page, layout)?;
+        Codes::new(unpacked(source, bare)?, layout).ok_or_else(missing)
+    };
+    if !layout.planar {
+        return Ok(codes(layout)?.chosen(layout.samples, places));
+    }
+    let planes = places.iter().map(|&place| codes(&layout.plane(place)));
+    Codes::woven(planes.collect::<Result<_, _>>()?).ok_or_else(missing)
 }
 
 fn unpacked(source: &Source, bare: Bare) -> Result<DecodingResult, IoError> {

@@ -6,11 +6,11 @@
 //! filling that up is no business of photometric stereo.
 
 /// What to do with raw data: LibRaw's `dcraw_emu -4 -T` is free and gives linear TIFF.
-pub(crate) const RAW_ADVICE: &str = "develop all shots alike as linear TIFF of 16 bits, for example with LibRaw's `dcraw_emu -4 -T`";
+pub(crate) const RAW_ADVICE: &str =
+    "export all shots alike as linear TIFF of 16 bits, for example with LibRaw's `dcraw_emu -4 -T`";
 
 const EXPORT: &str = "export it as TIFF or PNG of 16 bits";
-const PHONE: &str =
-    "convert all shots alike to PNG, or set the phone to its most compatible format";
+const PHONE: &str = "export all shots alike as PNG, or set the phone to its most compatible format";
 const ANIMATION: &str = "save each photograph as PNG; 256 colours are too few for shading";
 const FILM: &str = "extract one frame for each light, as PNG";
 const UNPACK: &str = "unpack it and give the folder";

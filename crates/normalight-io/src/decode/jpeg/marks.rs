@@ -71,11 +71,20 @@ pub(crate) fn end(bytes: &[u8]) -> Option<usize> {
     ends.next().map(|end| end.start)
 }
 
+/// Number of scans, each of which holds the whole picture or a part of its channels or detail.
+pub(crate) fn scans(bytes: &[u8]) -> usize {
+    segments(bytes)
+        .filter(|segment| segment.kind == 0xDA)
+        .count()
+}
+
 /// What a JPEG's frame says.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Frame {
     /// How it is coded, in words when no reader of photographs knows it.
     pub(crate) uncommon: Option<&'static str>,
+    /// Coded in passes of growing detail.
+    pub(crate) progressive: bool,
     /// Bits of a sample.
     pub(crate) bits: u8,
     /// 1 for grey, 3 for colours, 4 for those of a print.
@@ -101,6 +110,7 @@ pub(crate) fn frame(bytes: &[u8]) -> Option<Frame> {
             0xC9..=0xCF => Some("arithmetic coding"),
             _ => Some("hierarchical coding"),
         },
+        progressive: segment.kind == 0xC2,
         bits,
         components,
         width: u32::from(u16::from_be_bytes([wide, narrow])),
@@ -157,6 +167,7 @@ mod tests {
         ];
         let found = Frame {
             uncommon: None,
+            progressive: true,
             bits: 12,
             components: 4,
             width: 258,

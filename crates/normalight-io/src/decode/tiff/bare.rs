@@ -3,9 +3,9 @@
 //! The library's decoder hands out only the channels of colours that it knows, and then undoes
 //! differences and byte orders over the wrong number of channels: extra channels beside a predictor
 //! come out garbled, and so do extra channels in tiles of another byte order. What it is told here
-//! is always so many equal channels of grey; what they mean is decided by [`super::colors`]. The
+//! is always so many equal channels of grey in one plane; what they mean is decided by [`super::colors`]. The
 //! same way leads Zstandard and reversed bits past it, which it does not know.
-use super::directory::File;
+use super::directory::{Directory, File};
 use super::layout::{Kind, Layout, Place, bytes};
 use super::tags::{self, compression};
 use crate::IoError;
@@ -25,10 +25,10 @@ impl<'a> Bare<'a> {
     /// Zstandard that is damaged or larger than its strip or tile.
     pub(super) fn new(
         source: &Source<'a>,
-        file: &File<'a>,
+        page: &Directory<'a>,
         layout: &Layout,
-        tables: Option<&[u8]>,
     ) -> Result<Self, IoError> {
+        let file = page.file;
         let mut tail = Vec::new();
         let mut places = layout.places.clone();
         let mut method = layout.compression;
@@ -56,9 +56,9 @@ impl<'a> Bare<'a> {
         if tail.len() % 2 == 1 {
             tail.push(0);
         }
-        let mut directory = NewDirectory::beside(file);
+        let mut directory = NewDirectory::beside(&file);
         fill(&mut directory, layout, &places, method);
-        if let Some(tables) = tables {
+        if let Some(tables) = page.bytes(tags::JPEG_TABLES) {
             directory.set_bytes(tags::JPEG_TABLES, tables);
         }
         let start = file.bytes.len() as u64 + tail.len() as u64;
@@ -155,14 +155,9 @@ fn fill(directory: &mut NewDirectory, layout: &Layout, places: &[Place], method:
             (width, chunk, u64::from(layout.bits), layout.samples)
         }
         true => {
-            let woven = layout.woven();
+            let woven = layout.samples;
             let (width, chunk) = (bytes(layout.width, woven), bytes(layout.chunk.0, woven));
-            (
-                width,
-                chunk,
-                8,
-                if layout.planar { layout.samples } else { 1 },
-            )
+            (width, chunk, 8, 1)
         }
     };
     let float = layout.kind == Kind::Float;
@@ -176,7 +171,6 @@ fn fill(directory: &mut NewDirectory, layout: &Layout, places: &[Place], method:
     directory.set(tags::COMPRESSION, &[method]);
     directory.set(tags::PHOTOMETRIC, &[tags::photometric::BLACK_IS_ZERO]);
     directory.set(tags::SAMPLES, &[samples as u64]);
-    directory.set(tags::PLANAR, &[if layout.planar { 2 } else { 1 }]);
     directory.set(tags::PREDICTOR, &[layout.predictor]);
     directory.set(tags::SAMPLE_FORMAT, &[if float { 3 } else { 1 }]);
     match layout.tiled {

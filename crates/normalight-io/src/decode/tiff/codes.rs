@@ -76,14 +76,26 @@ impl Codes {
             Samples::U16(codes) => codes.len(),
             Samples::F32(values) => values.len(),
         };
-        if count != area * layout.samples {
-            return None;
+        (count == area * layout.samples).then_some(Self { samples, full })
+    }
+
+    /// Planes of one kind, pixel by pixel; `None` when they differ.
+    pub(super) fn woven(planes: Vec<Self>) -> Option<Self> {
+        let full = planes.first()?.full;
+        let (mut bytes, mut words, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        let count = planes.len();
+        for plane in planes {
+            match plane.samples {
+                Samples::U8(codes) => bytes.push(codes),
+                Samples::U16(codes) => words.push(codes),
+                Samples::F32(samples) => values.push(samples),
+            }
         }
-        let samples = match (layout.planar, samples) {
-            (false, samples) => samples,
-            (true, Samples::U8(codes)) => Samples::U8(woven(&codes, area)),
-            (true, Samples::U16(codes)) => Samples::U16(woven(&codes, area)),
-            (true, Samples::F32(values)) => Samples::F32(woven(&values, area)),
+        let samples = match count {
+            count if count == bytes.len() => Samples::U8(interleaved(&bytes)?),
+            count if count == words.len() => Samples::U16(interleaved(&words)?),
+            count if count == values.len() => Samples::F32(interleaved(&values)?),
+            _ => return None,
         };
         Some(Self { samples, full })
     }
@@ -124,12 +136,11 @@ impl Codes {
     }
 }
 
-/// Codes of less than 16 bits out of bytes, first bits first; rows begin with a byte. Planes follow
-/// one another.
+/// Codes of less than 16 bits out of bytes, first bits first; rows begin with a byte.
 fn unpacked<T>(packed: &[u8], layout: &Layout, code: impl Fn(u16) -> T) -> Option<Vec<T>> {
     let bits = u32::from(layout.bits);
-    let row = layout.width as usize * layout.woven();
-    let rows = layout.height as usize * if layout.planar { layout.samples } else { 1 };
+    let row = layout.width as usize * layout.samples;
+    let rows = layout.height as usize;
     let bytes = (row * usize::from(layout.bits)).div_ceil(8);
     if packed.len() != bytes * rows {
         return None;
@@ -151,12 +162,15 @@ fn unpacked<T>(packed: &[u8], layout: &Layout, code: impl Fn(u16) -> T) -> Optio
     Some(codes)
 }
 
-/// Planes that follow one another, pixel by pixel.
-fn woven<T: Copy>(values: &[T], area: usize) -> Vec<T> {
-    let planes = values.len() / area.max(1);
-    let mut pixels = Vec::with_capacity(values.len());
-    for pixel in 0..area {
-        pixels.extend((0..planes).map(|plane| values[plane * area + pixel]));
+/// Planes of one length, pixel by pixel.
+fn interleaved<T: Copy>(planes: &[Vec<T>]) -> Option<Vec<T>> {
+    let area = planes.first()?.len();
+    if planes.iter().any(|plane| plane.len() != area) {
+        return None;
     }
-    pixels
+    let mut pixels = Vec::with_capacity(area * planes.len());
+    for pixel in 0..area {
+        pixels.extend(planes.iter().map(|plane| plane[pixel]));
+    }
+    Some(pixels)
 }

@@ -100,7 +100,12 @@ impl Meaning {
         })
     }
 
-    /// Colours and transparency.
+    /// Which channels are taken.
+    pub(super) fn places(&self) -> Vec<usize> {
+        (0..self.colours).chain(self.alpha).collect()
+    }
+
+    /// What those channels are as colours and transparency.
     ///
     /// # Errors
     /// A palette that lacks colours.
@@ -109,11 +114,8 @@ impl Meaning {
         source: &Source,
         page: &Directory,
         codes: Codes,
-        samples: usize,
     ) -> Result<Samples, IoError> {
-        let places: Vec<usize> = (0..self.colours).chain(self.alpha).collect();
-        let codes = codes.chosen(samples, &places);
-        let count = places.len();
+        let count = self.places().len();
         match self.photometric {
             photometric::PALETTE => through_palette(source, page, codes, self.alpha.is_some()),
             photometric::WHITE_IS_ZERO => Ok(inverted(codes.scaled(), count)),

@@ -18,7 +18,7 @@ pub(crate) struct File<'a> {
 
 /// A directory, and where the next begins (0: nowhere).
 pub(crate) struct Directory<'a> {
-    file: File<'a>,
+    pub(crate) file: File<'a>,
     entries: Vec<Entry<'a>>,
     pub(crate) next: u64,
 }

@@ -84,6 +84,18 @@ impl Layout {
         Ok(layout)
     }
 
+    /// One plane of those that lie apart.
+    pub(super) fn plane(&self, plane: usize) -> Self {
+        let count = self.places.len() / self.samples;
+        let first = plane * count;
+        Self {
+            samples: 1,
+            planar: false,
+            places: self.places[first..first + count].to_vec(),
+            ..*self
+        }
+    }
+
     /// Channels that lie together in one chunk.
     pub(super) fn woven(&self) -> usize {
         if self.planar { 1 } else { self.samples }

@@ -49,7 +49,7 @@ pub(super) mod compression {
         let known = match compression {
             2 => "CCITT Huffman",
             3 => "CCITT group 3",
-            6 => "JPEG as TIFF 6.0 had it",
+            6 => "old JPEG (TIFF 6.0)",
             9 | 10 | 34_661 => "JBIG",
             33_003..=33_005 | 34_712 => "JPEG 2000",
             34_676 | 34_677 => "LogLuv",
