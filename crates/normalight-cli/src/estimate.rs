@@ -119,6 +119,7 @@ fn reading(args: &EstimateArgs) -> Result<ReadOptions> {
         color: args.color.into(),
         mask,
         images: args.images,
+        ..ReadOptions::default()
     })
 }
 

@@ -4,10 +4,11 @@ use crate::decode::{Stored, decode_stored, turned_mask};
 use crate::format::{base_name, is_foreign, not_an_image};
 use crate::input::mask_label;
 use crate::input_plan::{ColorDecision, ColorReason, InputPlan};
-use crate::limits::MAX_STACK_BYTES;
 use crate::plan::{StackPlan, is_helper};
 use crate::turn::turned;
-use crate::{ColorMode, IoError, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
+use crate::{
+    ColorMode, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots,
+};
 use image::metadata::Orientation;
 use normalight_core::{
     ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, Transfer, evenly_spaced_indices,
@@ -37,7 +38,7 @@ pub(crate) fn assemble(
 ) -> Result<StackInput, IoError> {
     let picked = pick(place, names, &plan, options.images)?;
     let file_names = shown_names(names, &plan);
-    let shots = read_shots(names, &plan, &picked, options.color, &mut load)?;
+    let shots = read_shots(names, &plan, &picked, options, &mut load)?;
     let mut notices = plan.notices.clone();
     notices.extend(shots.notices);
     let mut images = shots.images;
@@ -47,11 +48,12 @@ pub(crate) fn assemble(
     let given = match &options.mask {
         MaskChoice::WholeFrame => None,
         MaskChoice::File(file) => {
-            Some((file.name.clone(), mask_file::read(&file.name, &file.bytes)?))
+            let read = mask_file::read(&file.name, &file.bytes, &options.limits)?;
+            Some((file.name.clone(), read))
         }
         MaskChoice::Auto => match plan.mask {
             Some(index) => {
-                let file = mask_file::read(&names[index], &load(index)?)?;
+                let file = mask_file::read(&names[index], &load(index)?, &options.limits)?;
                 Some((names[index].clone(), file))
             }
             None => None,
@@ -132,7 +134,7 @@ fn read_shots(
     names: &[String],
     plan: &StackPlan,
     picked: &[usize],
-    color: ColorMode,
+    options: &ReadOptions,
     load: &mut impl FnMut(usize) -> Result<Vec<u8>, IoError>,
 ) -> Result<Shots, IoError> {
     let mut images: Vec<StackImage> = Vec::with_capacity(picked.len());
@@ -147,7 +149,7 @@ fn read_shots(
             orientation,
             stated: says,
             notices: more,
-        } = decode_stored(&names[index], &load(index)?, color)?;
+        } = decode_stored(&names[index], &load(index)?, options.color, &options.limits)?;
         let image = StackImage {
             name: base_name(&names[index]).to_owned(),
             ..image
@@ -156,7 +158,7 @@ fn read_shots(
         total += sample_bytes(&image);
         let forecast = sample_bytes(&image) * picked.len() as u64;
         let need = if images.is_empty() { forecast } else { total };
-        check_total(&image, picked.len(), need)?;
+        check_total(&image, picked.len(), need, &options.limits)?;
         if images.is_empty() {
             alpha = transparent;
         }
@@ -322,13 +324,18 @@ fn sample_bytes(image: &StackImage) -> u64 {
     bytes as u64
 }
 
-fn check_total(image: &StackImage, images: usize, found: u64) -> Result<(), IoError> {
-    if found > MAX_STACK_BYTES {
+fn check_total(
+    image: &StackImage,
+    images: usize,
+    found: u64,
+    limits: &Limits,
+) -> Result<(), IoError> {
+    if found > limits.stack_bytes {
         return Err(IoError::StackTooLarge {
             name: image.name.clone(),
             images,
             found,
-            limit: MAX_STACK_BYTES,
+            limit: limits.stack_bytes,
         });
     }
     Ok(())

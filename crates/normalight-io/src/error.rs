@@ -41,7 +41,19 @@ pub enum IoError {
         /// What the decoder found.
         reason: String,
     },
-    /// An image has more pixels than [`crate::MAX_PIXELS`].
+    /// The file is whole and of a known format, but of a variant that is not read.
+    #[error("{name}: {format} with {found}, which is not read; {instead}")]
+    Unread {
+        /// The file.
+        name: String,
+        /// Its format.
+        format: &'static str,
+        /// What is unusual about it.
+        found: String,
+        /// What to do.
+        instead: &'static str,
+    },
+    /// An image has more pixels than [`crate::Limits::pixels`].
     #[error("{name}: {width}x{height} pixels, at most {limit} pixels are read")]
     TooManyPixels {
         /// The file.
@@ -63,7 +75,7 @@ pub enum IoError {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// All images together need more memory than [`crate::MAX_STACK_BYTES`].
+    /// All images together need more memory than [`crate::Limits::stack_bytes`].
     #[error(
         "{name}: {images} images of this size need {found} bytes, at most {limit} are kept; use fewer or smaller images"
     )]
@@ -76,6 +88,16 @@ pub enum IoError {
         found: u64,
         /// The limit, in bytes.
         limit: u64,
+    },
+    /// More files than [`crate::Limits::files`].
+    #[error("{name}: {found} files, at most {limit} are looked at; give the folder of one object")]
+    TooManyFiles {
+        /// The folder, or "the given files".
+        name: String,
+        /// Number of files.
+        found: usize,
+        /// The limit.
+        limit: usize,
     },
     /// Too few images were found in a place.
     #[error("{name}: {found} image(s) found, at least {expected} are needed")]

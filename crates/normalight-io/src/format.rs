@@ -1,9 +1,13 @@
+//! Which format a file is of: by its name and by its content.
+pub(crate) mod unread;
+
 use crate::IoError;
 use crate::decode::pfm;
 use image::ImageFormat;
+use unread::Unread;
 
 /// Names of the formats that are read, for messages.
-pub(crate) const READ_FORMATS: &str = "PNG, JPEG, TIFF, TGA, BMP, WebP, EXR or PGM/PPM/PFM";
+pub(crate) const READ_FORMATS: &str = "PNG, JPEG, TIFF, TGA, BMP, WebP, EXR, QOI or PGM/PPM/PFM";
 
 /// A name without the folders before it, whichever way the slashes lean.
 pub(crate) fn base_name(name: &str) -> &str {
@@ -21,11 +25,12 @@ pub(crate) fn split_extension(name: &str) -> (&str, &str) {
 pub(crate) fn format_of_extension(name: &str) -> Option<ImageFormat> {
     Some(
         match split_extension(name).1.to_ascii_lowercase().as_str() {
-            "png" => ImageFormat::Png,
-            "jpg" | "jpeg" | "jpe" | "jfif" => ImageFormat::Jpeg,
-            "tif" | "tiff" => ImageFormat::Tiff,
+            "png" | "apng" => ImageFormat::Png,
+            "jpg" | "jpeg" | "jpe" | "jfif" | "mpo" => ImageFormat::Jpeg,
+            "tif" | "tiff" | "btf" | "tf8" => ImageFormat::Tiff,
             "tga" => ImageFormat::Tga,
-            "bmp" => ImageFormat::Bmp,
+            "bmp" | "dib" => ImageFormat::Bmp,
+            "qoi" => ImageFormat::Qoi,
             "webp" => ImageFormat::WebP,
             "exr" => ImageFormat::OpenExr,
             "pgm" | "ppm" | "pbm" | "pnm" | "pam" | "pfm" => ImageFormat::Pnm,
@@ -56,47 +61,22 @@ pub(crate) fn format_name(format: ImageFormat) -> &'static str {
         ImageFormat::WebP => "WebP",
         ImageFormat::OpenExr => "EXR",
         ImageFormat::Pnm => "PNM",
-        ImageFormat::Gif => "GIF",
+        ImageFormat::Qoi => "QOI",
         _ => "another image format",
     }
 }
 
 /// How people call a format of photographs that is not read, by its extension in lower case.
 pub(crate) fn unread_format(extension: &str) -> Option<&'static str> {
-    Some(match extension {
-        "heic" | "heif" | "hif" => "HEIC",
-        "avif" => "AVIF",
-        "jxl" => "JPEG XL",
-        "jp2" | "j2k" => "JPEG 2000",
-        "gif" => "GIF",
-        "psd" | "psb" => "Photoshop",
-        "dng" | "cr2" | "cr3" | "nef" | "nrw" | "arw" | "raf" | "orf" | "rw2" | "pef" | "srw" => {
-            "camera RAW"
-        }
-        _ => return None,
-    })
-}
-
-/// How people call content that is a photograph in a format that is not read.
-fn unread_content(bytes: &[u8]) -> Option<&'static str> {
-    let brand = bytes.get(4..12).and_then(|head| head.strip_prefix(b"ftyp"));
-    match (brand, bytes) {
-        (Some(b"avif" | b"avis"), _) => Some("AVIF"),
-        (Some(b"crx "), _) => Some("camera RAW"),
-        (Some(_), _) => Some("HEIC"),
-        (_, [b'G', b'I', b'F', b'8', ..]) => Some("GIF"),
-        (_, [0xFF, 0x0A, ..]) => Some("JPEG XL"),
-        (_, [b'8', b'B', b'P', b'S', ..]) => Some("Photoshop"),
-        (_, [b'I', b'I', b'*', 0, _, _, _, _, b'C', b'R', ..]) => Some("camera RAW"),
-        _ => None,
-    }
+    let format = unread::of_extension(extension)?;
+    format.is_picture.then_some(format.name)
 }
 
 /// The error for a file whose extension is that of no image that is read.
 pub(crate) fn not_an_image(name: &str) -> IoError {
     let extension = split_extension(name).1;
-    let found = match unread_format(&extension.to_ascii_lowercase()) {
-        Some(format) => unread(format),
+    let found = match unread::of_extension(&extension.to_ascii_lowercase()) {
+        Some(format) => words(format),
         None => format!("a file with extension {extension:?}"),
     };
     IoError::NotAnImage {
@@ -106,8 +86,12 @@ pub(crate) fn not_an_image(name: &str) -> IoError {
     }
 }
 
-fn unread(format: &str) -> String {
-    format!("a photograph in {format}, which is not read (export it as TIFF or PNG of 16 bits)")
+fn words(format: Unread) -> String {
+    let Unread { name, advice, .. } = format;
+    match format.is_picture {
+        true => format!("a photograph in {name}, which is not read ({advice})"),
+        false => format!("{name} ({advice})"),
+    }
 }
 
 /// The format of a file: its content decides, whatever the extension of an image says.
@@ -116,9 +100,10 @@ fn unread(format: &str) -> String {
 /// another format.
 pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
     let promised = format_of_extension(name).ok_or_else(|| not_an_image(name))?;
-    let found = match (image::guess_format(bytes), unread_content(bytes)) {
-        (_, Some(format)) => unread(format),
-        (Ok(found), _) if format_name(found) != format_name(ImageFormat::Ico) => return Ok(found),
+    let found = match (image::guess_format(bytes), unread::of_content(bytes)) {
+        // The header of a TGA may begin like anything.
+        (_, Some(format)) if promised != ImageFormat::Tga || format.is_picture => words(format),
+        (Ok(found), _) if is_read(found) => return Ok(found),
         // Files beyond 4 GiB, which the library does not tell.
         _ if matches!(bytes, [b'I', b'I', b'+', 0, ..] | [b'M', b'M', 0, b'+', ..]) => {
             return Ok(ImageFormat::Tiff);
@@ -126,6 +111,9 @@ pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoE
         _ if pfm::is_pfm(bytes) => return Ok(ImageFormat::Pnm),
         _ if bytes.is_empty() => "an empty file".to_owned(),
         _ if promised == ImageFormat::Tga => return Ok(promised),
+        _ if bytes.iter().take(4096).all(|&byte| byte == 0) => {
+            "nothing but zeros (a copy or download that failed?)".to_owned()
+        }
         _ => format!("content that is not {}", format_name(promised)),
     };
     Err(IoError::NotAnImage {
@@ -133,4 +121,10 @@ pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoE
         found,
         expected: READ_FORMATS,
     })
+}
+
+fn is_read(format: ImageFormat) -> bool {
+    use ImageFormat::{Bmp, Jpeg, OpenExr, Png, Pnm, Qoi, Tga, Tiff, WebP};
+    let read = [Bmp, Jpeg, OpenExr, Png, Pnm, Qoi, Tga, Tiff, WebP];
+    read.contains(&format)
 }

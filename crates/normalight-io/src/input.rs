@@ -1,6 +1,6 @@
 //! What a stack is read from, how, and what comes out.
 use crate::input_plan::LightsDecision;
-use crate::{ColorMode, GivenLights, InputPlan};
+use crate::{ColorMode, GivenLights, InputPlan, Limits};
 use normalight_core::{ImageStack, Light, Mask, MaskSource};
 
 /// A file in memory.
@@ -44,6 +44,8 @@ pub struct ReadOptions {
     pub mask: MaskChoice,
     /// Read only this many images, evenly spaced over the stack; all when `None` or too large.
     pub images: Option<usize>,
+    /// How much is read at most.
+    pub limits: Limits,
 }
 
 /// A stack as read, ready for the pipeline.

@@ -37,7 +37,6 @@ mod error;
 mod format;
 mod input;
 mod input_plan;
-mod jpeg;
 mod light_array;
 mod light_axes;
 mod light_exports;
@@ -81,8 +80,8 @@ pub use light_file::GivenLights;
 pub use light_map::lights_svg;
 pub use light_match::read_lights;
 pub use limits::{
-    MAX_ARCHIVE_BYTES, MAX_ARCHIVE_FILES, MAX_ARCHIVE_RATIO, MAX_FILE_BYTES, MAX_MESH_BYTES,
-    MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES,
+    Limits, MAX_ARCHIVE_BYTES, MAX_ARCHIVE_FILES, MAX_ARCHIVE_RATIO, MAX_FILE_BYTES, MAX_FILES,
+    MAX_MESH_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES,
 };
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
 pub use mask_file::decode_mask;

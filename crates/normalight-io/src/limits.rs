@@ -1,3 +1,7 @@
+//! How much is read: in one place, as a value that is passed down.
+use crate::IoError;
+use serde::{Deserialize, Serialize};
+
 /// Most pixels of one image: 100 megapixels, above any camera a phone or a studio uses for this.
 pub const MAX_PIXELS: u64 = 100_000_000;
 
@@ -11,9 +15,8 @@ pub const MAX_TEXT_BYTES: u64 = 4 << 20;
 /// bits (the browser).
 pub const MAX_STACK_BYTES: u64 = if usize::BITS > 32 { 32 << 30 } else { 2 << 30 };
 
-/// Most bytes that decoding one image may take, output and scratch: the largest image in
-/// floating-point RGBA, and a quarter more.
-pub(crate) const MAX_DECODE_BYTES: u64 = MAX_PIXELS * 20;
+/// Most files of one input, images or not: above any dome, any folder of a camera and any set.
+pub const MAX_FILES: usize = 100_000;
 
 /// Largest mesh file that is read: 256 MiB, above the largest text of as many triangles as are
 /// taken.
@@ -37,3 +40,52 @@ pub(crate) const ARCHIVE_BYTES_AT_ANY_RATIO: u64 = 16 << 20;
 
 /// Most bytes between two files of a tar archive: headers, long names and attributes.
 pub(crate) const MAX_TAR_HEADER_BYTES: u64 = 1 << 20;
+/// How much of photographs is read, for the command and the page alike. The defaults are the
+/// constants beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Limits {
+    /// Most pixels of one image ([`MAX_PIXELS`]).
+    pub pixels: u64,
+    /// Largest image file, in bytes ([`MAX_FILE_BYTES`]).
+    pub file_bytes: u64,
+    /// Largest list or light file, in bytes ([`MAX_TEXT_BYTES`]).
+    pub text_bytes: u64,
+    /// Most bytes of all samples of a stack ([`MAX_STACK_BYTES`]).
+    pub stack_bytes: u64,
+    /// Most files of one input ([`MAX_FILES`]).
+    pub files: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            pixels: MAX_PIXELS,
+            file_bytes: MAX_FILE_BYTES,
+            text_bytes: MAX_TEXT_BYTES,
+            stack_bytes: MAX_STACK_BYTES,
+            files: MAX_FILES,
+        }
+    }
+}
+
+impl Limits {
+    /// # Errors
+    /// [`IoError::TooManyFiles`].
+    pub(crate) fn check_files(&self, place: &str, found: usize) -> Result<(), IoError> {
+        match found > self.files {
+            true => Err(IoError::TooManyFiles {
+                name: place.to_owned(),
+                found,
+                limit: self.files,
+            }),
+            false => Ok(()),
+        }
+    }
+
+    /// Most bytes that decoding one image may take, output and scratch: the largest image in
+    /// floating-point RGBA, and a quarter more.
+    pub(crate) fn decode_bytes(&self) -> u64 {
+        self.pixels.saturating_mul(20)
+    }
+}

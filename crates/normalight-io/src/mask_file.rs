@@ -1,7 +1,7 @@
 //! Masks as programs write them.
 use crate::color::mapped;
 use crate::decode::{Stored, decode_stored, turned_mask};
-use crate::{ColorMode, IoError, Notice};
+use crate::{ColorMode, IoError, Limits, Notice};
 use normalight_core::{Mask, luminance};
 
 /// A mask from a file, with what is doubtful about it.
@@ -17,18 +17,18 @@ pub(crate) struct MaskFile {
 /// # Errors
 /// As [`decode_image`](crate::decode_image).
 pub fn decode_mask(name: &str, bytes: &[u8]) -> Result<Mask, IoError> {
-    Ok(read(name, bytes)?.mask)
+    Ok(read(name, bytes, &Limits::default())?.mask)
 }
 
-/// As [`decode_mask`], with what is doubtful.
-pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<MaskFile, IoError> {
+/// As [`decode_mask`], with what is doubtful, within these limits.
+pub(crate) fn read(name: &str, bytes: &[u8], limits: &Limits) -> Result<MaskFile, IoError> {
     let Stored {
         image,
         alpha,
         orientation,
         mut notices,
         ..
-    } = decode_stored(name, bytes, ColorMode::Linear)?;
+    } = decode_stored(name, bytes, ColorMode::Linear, limits)?;
     let values = mapped(&image.samples, |value| value);
     let grey: Vec<f32> = values
         .chunks_exact(image.channels)

@@ -40,14 +40,38 @@ pub enum Notice {
         /// The file.
         file: String,
     },
-    /// A file holds several pages; the first was taken.
+    /// A file holds several pages or pictures; one was taken.
     SeveralPages {
         /// The file.
         file: String,
         /// Number of pages.
         pages: usize,
+        /// Which was taken, from 1.
+        page: usize,
     },
-    /// Samples without a finite value: infinite ones were taken as the brightest finite one.
+    /// A file is an animation; its first picture was taken.
+    Animation {
+        /// The file.
+        file: String,
+    },
+    /// A file holds several pictures under names (layers, parts); one was taken.
+    SeveralLayers {
+        /// The file.
+        file: String,
+        /// The one that was taken.
+        taken: String,
+        /// The others.
+        others: Vec<String>,
+    },
+    /// Channels that are neither colours nor transparency were left out.
+    ExtraChannels {
+        /// The file.
+        file: String,
+        /// How many.
+        channels: usize,
+    },
+    /// Samples without a finite value (infinite or not a number), taken as the brightest finite
+    /// one.
     Infinite {
         /// The file.
         file: String,
@@ -202,12 +226,25 @@ impl fmt::Display for Notice {
                 f,
                 "{file}: named unlike the other photographs, but taken as one"
             ),
-            Self::SeveralPages { file, pages } => {
-                write!(f, "{file}: has {pages} pages, the first was taken")
+            Self::SeveralPages { file, pages, page } => write!(
+                f,
+                "{file}: has {pages} pages, page {page} was taken; save others as files of their own to use them"
+            ),
+            Self::Animation { file } => {
+                write!(f, "{file}: an animation, of which the first picture was taken")
             }
+            Self::SeveralLayers { file, taken, others } => write!(
+                f,
+                "{file}: holds several pictures; {taken} was taken, not {}",
+                some_names(others)
+            ),
+            Self::ExtraChannels { file, channels } => write!(
+                f,
+                "{file}: {channels} channel(s) beside its colours were left out"
+            ),
             Self::Infinite { file, samples } => write!(
                 f,
-                "{file}: {samples} infinite samples, taken as the brightest finite value"
+                "{file}: {samples} samples infinite or not a number, taken as the brightest finite value"
             ),
             Self::Orientations { files } => write!(
                 f,

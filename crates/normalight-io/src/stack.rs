@@ -20,5 +20,6 @@ use crate::{IoError, NamedBytes, ReadOptions, StackInput};
 /// [`IoError::AllIdentical`]; [`IoError::Core`] for images of different sizes, NaN, a mask of
 /// another size, an empty mask or nothing but black.
 pub fn read_stack(files: Vec<NamedBytes>, options: &ReadOptions) -> Result<StackInput, IoError> {
+    options.limits.check_files("the given files", files.len())?;
     read_files(None, Box::new(MemoryFiles::new(files)), options)
 }

@@ -63,6 +63,7 @@ impl Settings {
                 (None, MaskSetting::None) => MaskChoice::WholeFrame,
             },
             images: self.images,
+            ..ReadOptions::default()
         }
     }
 

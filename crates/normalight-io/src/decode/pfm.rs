@@ -1,5 +1,10 @@
 //! Portable float maps: a text head, then rows from the bottom.
-use image::{DynamicImage, ImageBuffer};
+use super::raw::Raw;
+use super::source::Source;
+use crate::IoError;
+use crate::color::Statement;
+use image::metadata::Orientation;
+use normalight_core::Samples;
 
 /// Whether the bytes begin as a float map, RGB or grey.
 pub(crate) fn is_pfm(bytes: &[u8]) -> bool {
@@ -37,31 +42,36 @@ fn head(bytes: &[u8]) -> Option<Head> {
     })
 }
 
-/// Width and height.
-pub(crate) fn size(bytes: &[u8]) -> Option<(u32, u32)> {
-    head(bytes).map(|head| (head.width, head.height))
+/// The image; grey fills all channels.
+pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
+    let damaged = || source.damaged("its float map is damaged");
+    let bytes = source.bytes;
+    let head = head(bytes).ok_or_else(damaged)?;
+    source.check_size(head.width, head.height)?;
+    Ok(Raw {
+        width: head.width,
+        height: head.height,
+        channels: 3,
+        samples: Samples::F32(values(bytes, &head).ok_or_else(damaged)?),
+        premultiplied: false,
+        statement: Statement::Linear,
+        orientation: Orientation::NoTransforms,
+        notices: Vec::new(),
+    })
 }
 
-/// The image; grey fills all channels. `None` for a damaged file. The size was checked before.
-pub(crate) fn decode(bytes: &[u8]) -> Option<DynamicImage> {
-    let Head {
-        width,
-        height,
-        little,
-        start,
-    } = head(bytes)?;
+fn values(bytes: &[u8], head: &Head) -> Option<Vec<f32>> {
     let channels: usize = if bytes[1] == b'F' { 3 } else { 1 };
-    let row = width as usize * channels;
-    let data = bytes.get(start..start + 4 * row * height as usize)?;
+    let row = head.width as usize * channels;
+    let data = bytes.get(head.start..head.start + 4 * row * head.height as usize)?;
     let values = data.chunks_exact(4 * row).rev().flat_map(|line| {
         line.as_chunks::<4>().0.iter().flat_map(move |&code| {
-            let value = match little {
+            let value = match head.little {
                 true => f32::from_le_bytes(code),
                 false => f32::from_be_bytes(code),
             };
             std::iter::repeat_n(value, 3 / channels)
         })
     });
-    let buffer = ImageBuffer::from_raw(width, height, values.collect())?;
-    Some(DynamicImage::ImageRgb32F(buffer))
+    Some(values.collect())
 }

@@ -3,7 +3,7 @@ use super::files::{display, file_name, read_error, read_file};
 use super::read::look_below;
 use crate::IoError;
 use crate::archive::Source;
-use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
+use crate::limits::Limits;
 use crate::source::{FileSource, LooseFiles};
 use crate::text::read_text;
 use std::fs::File;
@@ -14,23 +14,25 @@ use std::path::PathBuf;
 pub(super) struct DiskFiles {
     pub(super) paths: Vec<PathBuf>,
     names: Vec<String>,
+    limits: Limits,
     /// The folder, when all of its files are meant.
     folder: Option<PathBuf>,
 }
 
 impl DiskFiles {
-    pub(super) fn new(paths: Vec<PathBuf>) -> Self {
+    pub(super) fn new(paths: Vec<PathBuf>, limits: Limits) -> Self {
         Self {
             names: paths.iter().map(|path| file_name(path)).collect(),
             paths,
+            limits,
             folder: None,
         }
     }
 
-    pub(super) fn of_folder(folder: PathBuf, paths: Vec<PathBuf>) -> Self {
+    pub(super) fn of_folder(folder: PathBuf, paths: Vec<PathBuf>, limits: Limits) -> Self {
         Self {
             folder: Some(folder),
-            ..Self::new(paths)
+            ..Self::new(paths, limits)
         }
     }
 }
@@ -45,12 +47,12 @@ impl FileSource for DiskFiles {
     }
 
     fn text(&mut self, index: usize) -> Result<String, IoError> {
-        let bytes = read_file(&self.paths[index], MAX_TEXT_BYTES)?;
+        let bytes = read_file(&self.paths[index], self.limits.text_bytes)?;
         read_text(&self.names[index], &bytes)
     }
 
     fn take(&mut self, index: usize) -> Result<Vec<u8>, IoError> {
-        read_file(&self.paths[index], MAX_FILE_BYTES)
+        read_file(&self.paths[index], self.limits.file_bytes)
     }
 }
 

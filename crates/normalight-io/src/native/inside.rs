@@ -2,6 +2,7 @@
 use super::disk::DiskFiles;
 use super::files::{display, read_error};
 use crate::archive::{Archive, ArchiveKind, HEAD, ReadLimits};
+use crate::limits::Limits;
 use crate::packed::Packed;
 use crate::source::LooseFiles;
 use crate::{IoError, ReadOptions, StackInput};
@@ -24,7 +25,7 @@ pub(super) fn read_folder_inside(
     options: &ReadOptions,
 ) -> Option<Result<StackInput, IoError>> {
     let (archive, folder) = split(path)?;
-    let files = DiskFiles::new(vec![archive]);
+    let files = DiskFiles::new(vec![archive], Limits::default());
     let missing = || Err(read_error(path, io::ErrorKind::NotFound.into()));
     Some(match Packed::open(Box::new(files), &folder) {
         Ok(Ok(packed)) => packed.read(options),
@@ -36,7 +37,7 @@ pub(super) fn read_folder_inside(
 /// The bytes of a file in an archive, at most `limit`; `None` for a path that leads into none.
 pub(super) fn read_file_inside(path: &Path, limit: u64) -> Option<Result<Vec<u8>, IoError>> {
     let (archive, inner) = split(path)?;
-    let mut files = DiskFiles::new(vec![archive]);
+    let mut files = DiskFiles::new(vec![archive], Limits::default());
     let mut read = || {
         let missing = || read_error(path, io::ErrorKind::NotFound.into());
         let kind = ArchiveKind::of_content(&files.head(0, HEAD)?).ok_or_else(missing)?;

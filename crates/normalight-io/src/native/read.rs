@@ -45,7 +45,7 @@ pub fn read_paths(paths: &[PathBuf], options: &ReadOptions) -> Result<StackInput
             });
         }
     }
-    let mut files = DiskFiles::new(paths.to_vec());
+    let mut files = DiskFiles::new(paths.to_vec(), options.limits);
     for (index, path) in paths.iter().enumerate() {
         let name = display(path);
         // The name of an archive promises enough: what is wrong with it is said when it is opened.
@@ -67,9 +67,10 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
             paths.push(path);
         }
     }
+    options.limits.check_files(&display(folder), paths.len())?;
     // The system hands names out in any order.
     paths.sort();
-    let files = DiskFiles::of_folder(folder.to_owned(), paths);
+    let files = DiskFiles::of_folder(folder.to_owned(), paths, options.limits);
     read_files(Some(&display(folder)), Box::new(files), options)
 }
 

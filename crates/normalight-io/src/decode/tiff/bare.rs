@@ -1,0 +1,258 @@
+//! A page under a directory that says no more than how to unpack it.
+//!
+//! The library's decoder hands out only the channels of colours that it knows, and then undoes
+//! differences and byte orders over the wrong number of channels: extra channels beside a predictor
+//! come out garbled, and so do extra channels in tiles of another byte order. What it is told here
+//! is always so many equal channels of grey in one plane; what they mean is decided by [`super::colors`]. The
+//! same way leads Zstandard and reversed bits past it, which it does not know.
+use super::directory::{Directory, File};
+use super::layout::{Kind, Layout, Place, bytes};
+use super::tags::{self, compression};
+use crate::IoError;
+use crate::decode::source::Source;
+use std::io::{self, Read, Seek, SeekFrom};
+
+/// The bytes of a file with another header and with more at the end.
+pub(super) struct Bare<'a> {
+    head: Vec<u8>,
+    body: &'a [u8],
+    tail: Vec<u8>,
+    at: u64,
+}
+
+impl<'a> Bare<'a> {
+    /// # Errors
+    /// Zstandard that is damaged or larger than its strip or tile.
+    pub(super) fn new(
+        source: &Source<'a>,
+        page: &Directory<'a>,
+        layout: &Layout,
+    ) -> Result<Self, IoError> {
+        let file = page.file;
+        let mut tail = Vec::new();
+        let mut places = layout.places.clone();
+        let mut method = layout.compression;
+        let reversed = layout.reversed && method != compression::JPEG;
+        if method == compression::ZSTANDARD || reversed {
+            for (chunk, place) in places.iter_mut().enumerate() {
+                let stored = bytes(file.bytes, *place).unwrap_or_default();
+                let start = tail.len();
+                match reversed {
+                    true => {
+                        let turned: Vec<u8> = stored.iter().map(|b| b.reverse_bits()).collect();
+                        unpack(source, layout, chunk, &turned, &mut tail)?;
+                    }
+                    false => unpack(source, layout, chunk, stored, &mut tail)?,
+                }
+                *place = Place {
+                    start: (file.bytes.len() + start) as u64,
+                    length: (tail.len() - start) as u64,
+                };
+            }
+            if method == compression::ZSTANDARD {
+                method = compression::NONE;
+            }
+        }
+        if tail.len() % 2 == 1 {
+            tail.push(0);
+        }
+        let mut directory = NewDirectory::beside(&file);
+        fill(&mut directory, layout, &places, method);
+        if let Some(tables) = page.bytes(tags::JPEG_TABLES) {
+            directory.set_bytes(tags::JPEG_TABLES, tables);
+        }
+        let start = file.bytes.len() as u64 + tail.len() as u64;
+        let place = directory.write(start, &mut tail);
+        if !file.big && place > u64::from(u32::MAX) {
+            return Err(source.too_much_memory());
+        }
+        let mut head = file.bytes[..if file.big { 8 } else { 4 }].to_vec();
+        head.extend(directory.word(place));
+        Ok(Self {
+            head,
+            body: file.bytes,
+            tail,
+            at: 0,
+        })
+    }
+
+    fn rest(&self) -> &[u8] {
+        let Ok(at) = usize::try_from(self.at) else {
+            return &[];
+        };
+        match at {
+            at if at < self.head.len() => &self.head[at..],
+            at if at < self.body.len() => &self.body[at..],
+            at => self.tail.get(at - self.body.len()..).unwrap_or_default(),
+        }
+    }
+}
+
+impl Read for Bare<'_> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        let rest = self.rest();
+        let count = rest.len().min(to.len());
+        to[..count].copy_from_slice(&rest[..count]);
+        self.at += count as u64;
+        Ok(count)
+    }
+}
+
+impl Seek for Bare<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let end = (self.body.len() + self.tail.len()) as u64;
+        let at = match to {
+            SeekFrom::Start(at) => Some(at),
+            SeekFrom::End(by) => end.checked_add_signed(by),
+            SeekFrom::Current(by) => self.at.checked_add_signed(by),
+        };
+        self.at = at.ok_or(io::ErrorKind::InvalidInput)?;
+        Ok(self.at)
+    }
+}
+
+/// Appends the content of a chunk, without Zstandard.
+fn unpack(
+    source: &Source,
+    layout: &Layout,
+    chunk: usize,
+    stored: &[u8],
+    tail: &mut Vec<u8>,
+) -> Result<(), IoError> {
+    if layout.compression != compression::ZSTANDARD {
+        tail.extend_from_slice(stored);
+        return Ok(());
+    }
+    let failed = |reason: String| {
+        source.damaged(format!(
+            "Zstandard of strip or tile {}: {reason}",
+            chunk + 1
+        ))
+    };
+    let expected = layout.row_bytes() * layout.rows(chunk);
+    if tail.len() as u64 + expected > source.limits.decode_bytes() {
+        return Err(source.too_much_memory());
+    }
+    let decoder = ruzstd::decoding::StreamingDecoder::new(stored);
+    let decoder = decoder.map_err(|error| failed(error.to_string()))?;
+    let read = decoder.take(expected).read_to_end(tail);
+    match read.map_err(|error| failed(error.to_string()))? as u64 {
+        read if read < expected => Err(failed(format!("{read} bytes instead of {expected}"))),
+        _ => Ok(()),
+    }
+}
+
+/// What the decoder is told.
+fn fill(directory: &mut NewDirectory, layout: &Layout, places: &[Place], method: u64) {
+    // Rows of 9 to 15 bits are unpacked here: the decoder reads them as bytes.
+    let packed = matches!(layout.bits, 9..=15);
+    let bytes = |pixels: u32, channels: usize| {
+        (u64::from(pixels) * channels as u64 * u64::from(layout.bits)).div_ceil(8)
+    };
+    let (width, chunk_width, bits, samples) = match packed {
+        false => {
+            let (width, chunk) = (u64::from(layout.width), u64::from(layout.chunk.0));
+            (width, chunk, u64::from(layout.bits), layout.samples)
+        }
+        true => {
+            let woven = layout.samples;
+            let (width, chunk) = (bytes(layout.width, woven), bytes(layout.chunk.0, woven));
+            (width, chunk, 8, 1)
+        }
+    };
+    let float = layout.kind == Kind::Float;
+    let (offsets, lengths) = match layout.tiled {
+        true => (tags::TILE_OFFSETS, tags::TILE_BYTES),
+        false => (tags::STRIP_OFFSETS, tags::STRIP_BYTES),
+    };
+    directory.set(tags::WIDTH, &[width]);
+    directory.set(tags::HEIGHT, &[u64::from(layout.height)]);
+    directory.set(tags::BITS, &[bits]);
+    directory.set(tags::COMPRESSION, &[method]);
+    directory.set(tags::PHOTOMETRIC, &[tags::photometric::BLACK_IS_ZERO]);
+    directory.set(tags::SAMPLES, &[samples as u64]);
+    directory.set(tags::PREDICTOR, &[layout.predictor]);
+    directory.set(tags::SAMPLE_FORMAT, &[if float { 3 } else { 1 }]);
+    match layout.tiled {
+        true => {
+            directory.set(tags::TILE_WIDTH, &[chunk_width]);
+            directory.set(tags::TILE_HEIGHT, &[u64::from(layout.chunk.1)]);
+        }
+        false => directory.set(tags::ROWS_PER_STRIP, &[u64::from(layout.chunk.1)]),
+    }
+    let list = |value: fn(&Place) -> u64| places.iter().map(value).collect::<Vec<_>>();
+    directory.set(offsets, &list(|place| place.start));
+    directory.set(lengths, &list(|place| place.length));
+}
+
+/// A directory that is being made.
+struct NewDirectory {
+    little: bool,
+    big: bool,
+    /// Tag, kind, number of values, content.
+    entries: Vec<(u16, u16, usize, Vec<u8>)>,
+}
+
+impl NewDirectory {
+    /// In the byte order and with the offsets of a file.
+    fn beside(file: &File) -> Self {
+        Self {
+            little: file.little,
+            big: file.big,
+            entries: Vec::new(),
+        }
+    }
+
+    fn bytes(&self, value: u64, count: usize) -> Vec<u8> {
+        match self.little {
+            true => value.to_le_bytes()[..count].to_vec(),
+            false => value.to_be_bytes()[8 - count..].to_vec(),
+        }
+    }
+
+    /// A number as wide as offsets are.
+    fn word(&self, value: u64) -> Vec<u8> {
+        self.bytes(value, if self.big { 8 } else { 4 })
+    }
+
+    fn set(&mut self, tag: u16, values: &[u64]) {
+        let content = values.iter().flat_map(|&value| self.word(value)).collect();
+        let kind = if self.big { 16 } else { 4 };
+        self.entries.push((tag, kind, values.len(), content));
+    }
+
+    fn set_bytes(&mut self, tag: u16, bytes: &[u8]) {
+        self.entries.push((tag, 7, bytes.len(), bytes.to_vec()));
+    }
+
+    /// Appends the directory to what begins at `start` less what is there already; returns where
+    /// the directory begins.
+    fn write(&mut self, start: u64, tail: &mut Vec<u8>) -> u64 {
+        self.entries.sort_by_key(|entry| entry.0);
+        let word = if self.big { 8 } else { 4 };
+        let mut fields = Vec::new();
+        let mut at = start;
+        for (tag, kind, count, content) in &self.entries {
+            fields.extend(self.bytes(u64::from(*tag), 2));
+            fields.extend(self.bytes(u64::from(*kind), 2));
+            fields.extend(self.word(*count as u64));
+            if content.len() <= word {
+                let mut inline = content.clone();
+                inline.resize(word, 0);
+                fields.extend(inline);
+                continue;
+            }
+            fields.extend(self.word(at));
+            tail.extend_from_slice(content);
+            if content.len() % 2 == 1 {
+                tail.push(0);
+            }
+            at += content.len().next_multiple_of(2) as u64;
+        }
+        let count = self.entries.len() as u64;
+        tail.extend(self.bytes(count, if self.big { 8 } else { 2 }));
+        tail.extend(fields);
+        tail.extend(self.word(0));
+        at
+    }
+}
