@@ -40,8 +40,43 @@ pub(crate) fn parse(name: &str, bytes: &[u8]) -> Option<Result<Vec<LightRow>, Io
     })
 }
 
+/// The longest head that numpy itself reads.
+const MAX_HEAD: usize = 10_000;
+
+/// The head of the file, a dictionary of Python.
+fn head(bytes: &[u8]) -> Option<&[u8]> {
+    let (length, rest) = match bytes.get(6)? {
+        1 => {
+            let (length, rest) = bytes.get(8..)?.split_first_chunk()?;
+            (usize::from(u16::from_le_bytes(*length)), rest)
+        }
+        _ => {
+            let (length, rest) = bytes.get(8..)?.split_first_chunk()?;
+            (u32::from_le_bytes(*length) as usize, rest)
+        }
+    };
+    rest.get(..length).filter(|_| length <= MAX_HEAD)
+}
+
+/// Whether the library may see this head: it allocates whatever length is promised, follows brackets to
+/// any depth and multiplies the sides of the array without care.
+fn is_modest(head: &[u8]) -> bool {
+    let brackets = head.iter().filter(|byte| b"([{".contains(byte)).count();
+    let digits = head.iter().filter(|byte| byte.is_ascii_digit()).count();
+    let mut pairs = head.windows(2);
+    // Hexadecimal numbers, exponents, 1_000.
+    let odd = |pair: &[u8]| {
+        pair[0].is_ascii_digit() && (pair[1].is_ascii_alphabetic() || pair[1] == b'_')
+    };
+    // One tuple in one dictionary; a product of numbers has no more digits than they.
+    brackets <= 2 && digits < 20 && !pairs.any(odd)
+}
+
 /// The numbers as stored, and whether all x come first.
 fn values(bytes: &[u8]) -> Option<(Vec<f32>, bool)> {
+    if !is_modest(head(bytes)?) {
+        return None;
+    }
     let file = NpyFile::new(bytes).ok()?;
     let transposed = match *file.shape() {
         [_, 3] => false,

@@ -1,6 +1,8 @@
 //! The only part of this crate that touches the file system.
 mod diligent;
 mod files;
+#[cfg(fuzzing)]
+pub mod fuzzing;
 mod intensities;
 mod matlab;
 mod meshes;

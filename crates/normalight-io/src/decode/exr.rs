@@ -8,10 +8,13 @@ use std::io::Cursor;
 pub(super) fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false)
         .map_err(|error| error.to_string())?;
+    // All layers are in memory at once.
+    let mut needed = 0u64;
     for header in &meta.headers {
         let size = header.layer_size;
         let pixels = size.0 as u64 * size.1 as u64;
-        let needed = pixels.saturating_mul(4 * header.channels.list.len() as u64);
+        let layer = pixels.saturating_mul(4 * header.channels.list.len() as u64);
+        needed = needed.saturating_add(layer);
         if pixels > MAX_PIXELS || needed > MAX_DECODE_BYTES {
             return Err(format!("{}x{} pixels are too many", size.0, size.1));
         }
