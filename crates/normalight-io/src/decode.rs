@@ -176,11 +176,7 @@ fn tame_infinite(values: &mut [f32]) -> Option<usize> {
 }
 
 fn decode_raw(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Raw, IoError> {
-    let failed = |reason: String| IoError::Decode {
-        name: name.to_owned(),
-        format: format_name(format),
-        reason,
-    };
+    let failed = |reason: String| damaged(name, format, &reason);
     if format == ImageFormat::Tiff {
         let page = tiff::decode(bytes).map_err(|failure| match failure {
             tiff::Failure::Reason(reason) => failed(reason),
@@ -211,6 +207,16 @@ fn decode_raw(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Raw, IoEr
     })
 }
 
+fn damaged(name: &str, format: ImageFormat, reason: &str) -> IoError {
+    // Decoders quote what they found, which may be long and of any letters.
+    let reason: String = reason.chars().take(200).collect();
+    IoError::Decode {
+        name: name.to_owned(),
+        format: format_name(format),
+        reason: reason.replace(char::is_control, " "),
+    }
+}
+
 fn too_large(name: &str, width: u32, height: u32) -> IoError {
     IoError::TooManyPixels {
         name: name.to_owned(),
@@ -225,11 +231,7 @@ fn decode_pixels(
     bytes: &[u8],
     format: ImageFormat,
 ) -> Result<(DynamicImage, Statement, Orientation), IoError> {
-    let failed = |reason: String| IoError::Decode {
-        name: name.to_owned(),
-        format: format_name(format),
-        reason,
-    };
+    let failed = |reason: String| damaged(name, format, &reason);
     let failed_decoding = |error: ImageError| match error {
         // Some decoders look at the memory before anyone can ask for the size.
         ImageError::Limits(_) => failed(format!(

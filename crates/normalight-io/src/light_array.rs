@@ -107,3 +107,42 @@ fn values(bytes: &[u8]) -> Option<(Vec<f32>, bool)> {
     };
     Some((values, columns_first))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(head: &str) -> Vec<u8> {
+        let mut file = b"\x93NUMPY\x01\0".to_vec();
+        file.extend((head.len() as u16).to_le_bytes());
+        file.extend(head.bytes());
+        file.extend([0.0f32, 0.6, 0.8].map(f32::to_le_bytes).concat());
+        file
+    }
+
+    #[test]
+    fn strange_heads_do_not_reach_the_library() {
+        let head = |shape: &str| {
+            file(&format!(
+                "{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}"
+            ))
+        };
+        let is_good = |file: &[u8]| super::head(file).is_some_and(is_modest);
+        let good = head("(1, 3)");
+        assert!(is_good(&good));
+        assert_eq!(values(&good), Some((vec![0.0, 0.6, 0.8], false)));
+        for shape in [
+            // Products that overflow, which panics where overflow is checked.
+            "(4294967296, 4294967297, 3)",
+            "(0xFFFFFFFFFFFFFFFF, 3)",
+            "(9_999_999_999, 3)",
+            "((((1, 3))))",
+        ] {
+            assert!(!is_good(&head(shape)), "{shape}");
+        }
+        assert!(!is_good(&file(&" ".repeat(MAX_HEAD + 1))));
+        // Memory would be set aside for four gigabytes.
+        assert!(!is_good(b"\x93NUMPY\x02\0\xFF\xFF\xFF\xFF{"));
+        assert!(!is_good(b"\x93NUMPY"));
+    }
+}

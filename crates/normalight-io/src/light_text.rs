@@ -76,8 +76,9 @@ pub(crate) fn check_count(name: &str, found: usize, expected: usize) -> Result<(
     })
 }
 
+/// Whether a number can be an intensity: above zero, and small enough for sums over channels and images.
 pub(crate) fn is_intensity(value: f32) -> bool {
-    value.is_finite() && value > 0.0
+    value > 0.0 && value < 1e30
 }
 
 pub(crate) fn check_direction(vector: Vec3) -> Option<Vec3> {

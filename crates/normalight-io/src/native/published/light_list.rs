@@ -31,7 +31,7 @@ fn parse_line(line: &str) -> Result<(String, Light), &'static str> {
     let direction =
         check_direction(direction.into()).ok_or("a finite direction that is not zero")?;
     if !intensity.into_iter().all(is_intensity) {
-        return Err("intensities above zero");
+        return Err("intensities above zero and below 1e30");
     }
     let light = Light {
         intensity,
