@@ -4,6 +4,7 @@
 //! Both fetch what is missing first, and name the exact command where they may not install.
 
 mod fresh;
+mod fuzz;
 mod node;
 mod packages;
 mod run;
@@ -55,6 +56,15 @@ enum Task {
         #[arg(long, value_name = "STEP")]
         skip: Vec<Step>,
     },
+    /// Run every fuzz target for some time, see fuzz/README.md.
+    Fuzz {
+        /// Seconds for each target.
+        #[arg(long, default_value_t = 60)]
+        seconds: u32,
+        /// Run only this target (repeatable).
+        #[arg(long, value_name = "TARGET")]
+        only: Vec<String>,
+    },
     /// Build the WebAssembly module and its JavaScript into web/wasm, and renew the package's generated types.
     Wasm,
 }
@@ -87,6 +97,7 @@ fn perform(arguments: Arguments) -> Result<()> {
         Task::Test { only, skip } => {
             steps::run(&workspace, &steps::chosen(&only, &skip), installing)
         }
+        Task::Fuzz { seconds, only } => fuzz::run(&workspace, seconds, &only, installing),
         Task::Wasm => {
             steps::run(&workspace, &steps::WASM, installing)?;
             types::renew(&workspace)

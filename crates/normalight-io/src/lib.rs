@@ -66,6 +66,9 @@ mod turn;
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
 
+#[cfg(fuzzing)]
+pub use native::fuzzing;
+
 pub use color::ColorMode;
 pub use decode::{DecodedImage, decode_image};
 pub use error::IoError;

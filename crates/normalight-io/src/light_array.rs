@@ -40,8 +40,43 @@ pub(crate) fn parse(name: &str, bytes: &[u8]) -> Option<Result<Vec<LightRow>, Io
     })
 }
 
+/// The longest head that numpy itself reads.
+const MAX_HEAD: usize = 10_000;
+
+/// The head of the file, a dictionary of Python.
+fn head(bytes: &[u8]) -> Option<&[u8]> {
+    let (length, rest) = match bytes.get(6)? {
+        1 => {
+            let (length, rest) = bytes.get(8..)?.split_first_chunk()?;
+            (usize::from(u16::from_le_bytes(*length)), rest)
+        }
+        _ => {
+            let (length, rest) = bytes.get(8..)?.split_first_chunk()?;
+            (u32::from_le_bytes(*length) as usize, rest)
+        }
+    };
+    rest.get(..length).filter(|_| length <= MAX_HEAD)
+}
+
+/// Whether the library may see this head: it allocates whatever length is promised, follows brackets to
+/// any depth and multiplies the sides of the array without care.
+fn is_modest(head: &[u8]) -> bool {
+    let brackets = head.iter().filter(|byte| b"([{".contains(byte)).count();
+    let digits = head.iter().filter(|byte| byte.is_ascii_digit()).count();
+    let mut pairs = head.windows(2);
+    // Hexadecimal numbers, exponents, 1_000.
+    let odd = |pair: &[u8]| {
+        pair[0].is_ascii_digit() && (pair[1].is_ascii_alphabetic() || pair[1] == b'_')
+    };
+    // One tuple in one dictionary; a product of numbers has no more digits than they.
+    brackets <= 2 && digits < 20 && !pairs.any(odd)
+}
+
 /// The numbers as stored, and whether all x come first.
 fn values(bytes: &[u8]) -> Option<(Vec<f32>, bool)> {
+    if !is_modest(head(bytes)?) {
+        return None;
+    }
     let file = NpyFile::new(bytes).ok()?;
     let transposed = match *file.shape() {
         [_, 3] => false,
@@ -71,4 +106,43 @@ fn values(bytes: &[u8]) -> Option<(Vec<f32>, bool)> {
         _ => return None,
     };
     Some((values, columns_first))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(head: &str) -> Vec<u8> {
+        let mut file = b"\x93NUMPY\x01\0".to_vec();
+        file.extend((head.len() as u16).to_le_bytes());
+        file.extend(head.bytes());
+        file.extend([0.0f32, 0.6, 0.8].map(f32::to_le_bytes).concat());
+        file
+    }
+
+    #[test]
+    fn strange_heads_do_not_reach_the_library() {
+        let head = |shape: &str| {
+            file(&format!(
+                "{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}"
+            ))
+        };
+        let is_good = |file: &[u8]| super::head(file).is_some_and(is_modest);
+        let good = head("(1, 3)");
+        assert!(is_good(&good));
+        assert_eq!(values(&good), Some((vec![0.0, 0.6, 0.8], false)));
+        for shape in [
+            // Products that overflow, which panics where overflow is checked.
+            "(4294967296, 4294967297, 3)",
+            "(0xFFFFFFFFFFFFFFFF, 3)",
+            "(9_999_999_999, 3)",
+            "((((1, 3))))",
+        ] {
+            assert!(!is_good(&head(shape)), "{shape}");
+        }
+        assert!(!is_good(&file(&" ".repeat(MAX_HEAD + 1))));
+        // Memory would be set aside for four gigabytes.
+        assert!(!is_good(b"\x93NUMPY\x02\0\xFF\xFF\xFF\xFF{"));
+        assert!(!is_good(b"\x93NUMPY"));
+    }
 }

@@ -55,11 +55,11 @@ pub fn lights_lp(file_names: &[String], lights: &[Light]) -> Result<Vec<u8>, IoE
         let Vec3 { x, y, z } = light.direction;
         // A line break in a name would start a new light.
         let mut file = file.replace(['\n', '\r'], " ");
-        // A name of numbers alone would be taken for some.
-        if file
+        // A name of numbers alone would be taken for some, and one that begins like a comment for one.
+        let numbers = file
             .split_whitespace()
-            .all(|word| parse_number(word).is_some())
-        {
+            .all(|word| parse_number(word).is_some());
+        if numbers || file.starts_with(['#', '%']) {
             file = format!("\"{file}\"");
         }
         text.push_str(&format!("{file} {x:.6} {y:.6} {z:.6}\n"));

@@ -88,7 +88,7 @@ impl LightFile {
                 return Err(row.wrong(name, "a finite vector that is not zero"));
             }
             if !intensity.into_iter().all(is_intensity) {
-                return Err(row.wrong(name, "intensities above zero"));
+                return Err(row.wrong(name, "intensities above zero and below 1e30"));
             }
             self.rows.push(LightRow {
                 file: row.file.clone(),

@@ -163,7 +163,7 @@ fn table(
         let optional = |known| columns.place(known).map_or(Ok(1.0), value);
         let (intensity, confidence) = (optional(INTENSITY)?, optional(CONFIDENCE)?);
         if !is_intensity(intensity) {
-            return Err(wrong(intensity, "an intensity above zero"));
+            return Err(wrong(intensity, "an intensity above zero and below 1e30"));
         }
         if !(0.0..=1.0).contains(&confidence) {
             return Err(wrong(confidence, "a confidence in 0..1"));

@@ -76,8 +76,9 @@ pub(crate) fn check_count(name: &str, found: usize, expected: usize) -> Result<(
     })
 }
 
+/// Whether a number can be an intensity: above zero, and small enough for sums over channels and images.
 pub(crate) fn is_intensity(value: f32) -> bool {
-    value.is_finite() && value > 0.0
+    value > 0.0 && value < 1e30
 }
 
 pub(crate) fn check_direction(vector: Vec3) -> Option<Vec3> {
@@ -126,16 +127,23 @@ fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
 /// Commas part numbers (`0.1,0.2`) or are decimal signs (`0,1 0,2`): where spaces or semicolons
 /// part the line into numbers already, they are decimal signs.
 fn parse_line(line: &str) -> Option<(Option<String>, Vec<f32>)> {
-    let spaces = |c: char| c.is_whitespace() || c == ';';
     // A name in quotes may be made of numbers.
     if let Some((file, rest)) = line.strip_prefix('"').and_then(|line| line.split_once('"'))
         && !file.is_empty()
         && let Some((None, numbers)) =
-            parse_line(rest.trim_start_matches(|c| spaces(c) || c == ','))
+            parse_plain(rest.trim_start_matches(|c| is_space(c) || c == ','))
     {
         return Some((Some(file.to_owned()), numbers));
     }
-    take_numbers(line, spaces).or_else(|| take_numbers(line, |c| spaces(c) || c == ','))
+    parse_plain(line)
+}
+
+fn parse_plain(line: &str) -> Option<(Option<String>, Vec<f32>)> {
+    take_numbers(line, is_space).or_else(|| take_numbers(line, |c| is_space(c) || c == ','))
+}
+
+fn is_space(c: char) -> bool {
+    c.is_whitespace() || c == ';'
 }
 
 fn take_numbers(
@@ -143,8 +151,8 @@ fn take_numbers(
     parts: impl Fn(char) -> bool + Copy,
 ) -> Option<(Option<String>, Vec<f32>)> {
     let mut rest = line;
+    // From the end of the line, and the name before each count of them.
     let mut numbers = Vec::new();
-    // The name before each count of numbers from the end.
     let mut before = vec![line];
     loop {
         let end = rest.trim_end_matches(|c| parts(c) || c == ',');
@@ -154,10 +162,11 @@ fn take_numbers(
         let Some(number) = parse_number(&end[start..]) else {
             break;
         };
-        numbers.insert(0, number);
+        numbers.push(number);
         rest = end[..start].trim_end_matches(|c| parts(c) || c == ',');
         before.push(rest);
         if rest.is_empty() {
+            numbers.reverse();
             return (numbers.len() <= 4).then_some((None, numbers));
         }
     }
@@ -170,7 +179,9 @@ fn take_numbers(
         .find(named)
         .or_else(|| (numbers.len() >= 3).then_some(3))?;
     let file = unquoted(before[count].trim()).to_owned();
-    Some((Some(file), numbers.split_off(numbers.len() - count)))
+    numbers.truncate(count);
+    numbers.reverse();
+    Some((Some(file), numbers))
 }
 
 /// A number with a decimal point or a decimal comma.

@@ -2,8 +2,9 @@
 use crate::IoError;
 use serde::{Deserialize, Serialize};
 
-/// Most pixels of one image: 100 megapixels, above any camera a phone or a studio uses for this.
-pub const MAX_PIXELS: u64 = 100_000_000;
+/// Most pixels of one image: 100 megapixels, above any camera a phone or a studio uses for this. Under
+/// the fuzzer it is one, so that memory or time beyond the limit stands out.
+pub const MAX_PIXELS: u64 = if cfg!(fuzzing) { 1 << 20 } else { 100_000_000 };
 
 /// Largest file that is read: 2 GiB, above the largest uncompressed image within [`MAX_PIXELS`].
 pub const MAX_FILE_BYTES: u64 = 2 << 30;

@@ -4,6 +4,8 @@ mod diligent;
 mod disk;
 mod files;
 mod inside;
+#[cfg(fuzzing)]
+pub mod fuzzing;
 mod intensities;
 mod matlab;
 mod meshes;

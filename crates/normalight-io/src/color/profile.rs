@@ -16,6 +16,9 @@ pub(crate) struct Profile {
 
 const STEPS: usize = 4096;
 
+/// Beyond any number of a sound profile; what comes of it stays finite.
+const LARGEST: f32 = 100.0;
+
 impl Profile {
     /// What the profile's bytes say; a profile near sRGB or linear light is said to be that.
     pub(crate) fn statement(bytes: &[u8]) -> Statement {
@@ -82,9 +85,9 @@ fn read(bytes: &[u8]) -> Result<Statement, String> {
             }
         };
         let curve: Vec<f32> = (0..STEPS).map(value).collect();
-        match curve.iter().all(|value| value.is_finite()) {
+        match curve.iter().copied().all(is_sound) {
             true => Ok(curve),
-            false => Err("its curve has no finite values".to_owned()),
+            false => Err("its curve leads to no light".to_owned()),
         }
     };
     let curves = match profile.color_space {
@@ -95,11 +98,11 @@ fn read(bytes: &[u8]) -> Result<Statement, String> {
             .collect::<Result<_, _>>()?,
         other => return Err(format!("it is for {other:?}")),
     };
-    let matrix = (curves.len() == 3)
-        .then(|| {
-            let to_srgb = profile.transform_matrix(&ColorProfile::new_srgb());
-            to_srgb.v.map(|row| row.map(|value| value as f32))
-        })
+    let matrix = match curves.len() {
+        3 => Some(primaries(&profile)?),
+        _ => None,
+    };
+    let matrix = matrix
         // A display's own primaries are near enough to those of sRGB when no channel moves by 2 %.
         .filter(|rows| {
             let moved = |row: usize, column: usize| {
@@ -125,6 +128,20 @@ fn read(bytes: &[u8]) -> Result<Statement, String> {
             matrix,
         }),
     })
+}
+
+/// From linear RGB of the profile to linear sRGB; rows.
+fn primaries(profile: &ColorProfile) -> Result<[[f32; 3]; 3], String> {
+    let to_srgb = profile.transform_matrix(&ColorProfile::new_srgb());
+    let rows = to_srgb.v.map(|row| row.map(|value| value as f32));
+    match rows.as_flattened().iter().copied().all(is_sound) {
+        true => Ok(rows),
+        false => Err("its primaries are no colours".to_owned()),
+    }
+}
+
+fn is_sound(value: f32) -> bool {
+    value.abs() <= LARGEST
 }
 
 fn name(profile: &ColorProfile) -> String {

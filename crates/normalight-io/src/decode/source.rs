@@ -13,10 +13,12 @@ pub(super) struct Source<'a> {
 impl Source<'_> {
     /// The file is damaged or cut off.
     pub(super) fn damaged(&self, reason: impl Into<String>) -> IoError {
+        // Decoders quote what they found, which may be long and of any letters.
+        let reason: String = reason.into().chars().take(200).collect();
         IoError::Decode {
             name: self.name.to_owned(),
             format: self.format,
-            reason: reason.into(),
+            reason: reason.replace(char::is_control, " "),
         }
     }
 

@@ -25,5 +25,5 @@ fn intensity(name: &str, row: &Row) -> Result<[f32; 3], IoError> {
     if intensity.into_iter().all(is_intensity) {
         return Ok(intensity);
     }
-    Err(row.wrong(name, "intensities above zero"))
+    Err(row.wrong(name, "intensities above zero and below 1e30"))
 }

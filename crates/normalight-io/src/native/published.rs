@@ -31,6 +31,11 @@ use crate::limits::MAX_TEXT_BYTES;
 use crate::text::read_text;
 use std::path::{Path, PathBuf};
 
+#[cfg(fuzzing)]
+pub(super) mod fuzzing {
+    pub(in crate::native) use super::light_list::parse as lights;
+}
+
 const TRAIN_LIST: &str = "train_mtrl.txt";
 const VAL_LIST: &str = "val_mtrl.txt";
 const IMAGES: &str = "Images";

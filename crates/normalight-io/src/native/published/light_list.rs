@@ -6,7 +6,7 @@ use normalight_core::{Light, StackImage, Vec3};
 use std::fmt::Write;
 
 /// Lines `image x y z`, `image x y z intensity` or `image x y z r g b`.
-pub(super) fn parse(name: &str, text: &str) -> Result<Vec<(String, Light)>, IoError> {
+pub(in crate::native) fn parse(name: &str, text: &str) -> Result<Vec<(String, Light)>, IoError> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     let lines = lines.map(|(index, line)| (index + 1, line.trim()));
     lines
@@ -31,7 +31,7 @@ fn parse_line(line: &str) -> Result<(String, Light), &'static str> {
     let direction =
         check_direction(direction.into()).ok_or("a finite direction that is not zero")?;
     if !intensity.into_iter().all(is_intensity) {
-        return Err("intensities above zero");
+        return Err("intensities above zero and below 1e30");
     }
     let light = Light {
         intensity,
