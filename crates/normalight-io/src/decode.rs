@@ -3,7 +3,7 @@ mod exr;
 pub(crate) mod pfm;
 mod tiff;
 
-use crate::color::{ColorMode, Statement, of_png, profile::Profile};
+use crate::color::{ColorMode, Encoding, Statement, of_exif, of_png, of_profile};
 use crate::format::{detect_format, format_name, format_of_extension, split_extension};
 use crate::limits::{MAX_DECODE_BYTES, MAX_PIXELS};
 use crate::turn::turned;
@@ -106,10 +106,11 @@ pub(crate) fn decode_stored(name: &str, bytes: &[u8], color: ColorMode) -> Resul
     }
     let (samples, channels, alpha) = part_alpha(raw.samples, raw.channels);
     let statement = taken(color, format, &samples, raw.statement);
-    if let Statement::Unknown(reason) = &statement {
+    if let Statement::Unknown { reason, instead } = &statement {
         notices.push(Notice::ProfileNotUnderstood {
             file: name.to_owned(),
             reason: reason.clone(),
+            taken: instead.words(),
         });
     }
     let stated = (!matches!(statement, Statement::Nothing)).then(|| statement.words());
@@ -155,7 +156,8 @@ fn taken(color: ColorMode, format: ImageFormat, samples: &Samples, said: Stateme
         {
             Statement::Srgb
         }
-        (ColorMode::Auto, Statement::Srgb) if floating => Statement::Power(2.2),
+        // The curve goes on beyond full scale.
+        (ColorMode::Auto, Statement::Srgb) if floating => Statement::Encoded(Encoding::srgb()),
         (ColorMode::Auto, said) => said,
     }
 }
@@ -255,7 +257,7 @@ fn decode_pixels(
     let mut decoder = match reader.into_decoder() {
         Err(_) if format == ImageFormat::OpenExr => {
             let pixels = exr::decode(bytes).map_err(failed)?;
-            return Ok((pixels, Statement::Linear, Orientation::NoTransforms));
+            return Ok((pixels, exr::statement(bytes), Orientation::NoTransforms));
         }
         decoder => decoder.map_err(failed_decoding)?,
     };
@@ -265,11 +267,16 @@ fn decode_pixels(
     }
     let statement = match format {
         ImageFormat::Png => of_png(bytes),
-        // A damaged profile must not hide a good picture.
-        _ => match decoder.icc_profile() {
-            Ok(Some(profile)) => Profile::statement(&profile),
-            _ => Statement::Nothing,
-        },
+        ImageFormat::OpenExr => exr::statement(bytes),
+        // A damaged profile or block must not hide a good picture.
+        _ => {
+            let exif = decoder.exif_metadata().ok().flatten();
+            let exif = exif.map_or(Statement::Nothing, of_exif);
+            match decoder.icc_profile() {
+                Ok(Some(profile)) => of_profile(&profile, exif),
+                _ => exif,
+            }
+        }
     };
     let orientation = decoder.orientation().map_err(failed_decoding)?;
     let pixels = DynamicImage::from_decoder(decoder).map_err(failed_decoding)?;

@@ -1,4 +1,5 @@
 //! EXR without plain R, G and B: luminance only, or named layers.
+use crate::color::{Curves, Encoding, Primaries, Statement, to_srgb};
 use crate::limits::{MAX_DECODE_BYTES, MAX_PIXELS};
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use image::{DynamicImage, ImageBuffer};
@@ -56,4 +57,21 @@ pub(super) fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
         "no layer has the channels R, G and B, or Y; found {}",
         found.join(", ")
     ))
+}
+
+/// Linear, in the primaries that the file states.
+pub(super) fn statement(bytes: &[u8]) -> Statement {
+    let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let stated = meta.ok().and_then(|meta| {
+        let mut headers = meta.headers.iter();
+        headers.find_map(|header| header.shared_attributes.chromaticities)
+    });
+    let Some(stated) = stated else {
+        return Statement::Linear;
+    };
+    let points = [stated.red, stated.green, stated.blue, stated.white];
+    let primaries: Primaries = points.map(|point| [point.0, point.1]);
+    let name = "linear in its own primaries".to_owned();
+    Encoding::statement(name, Curves::Linear, Some(to_srgb(primaries)))
+        .unwrap_or_else(|reason| Statement::unknown(reason, Statement::Linear))
 }

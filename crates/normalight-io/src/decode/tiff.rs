@@ -1,11 +1,11 @@
 //! TIFF of all kinds that scientific programs and cameras write.
-use crate::color::Statement;
-use crate::color::profile::Profile;
+use crate::color::{ExifColor, Statement, of_profile, samples_len};
 use crate::limits::{MAX_DECODE_BYTES, MAX_PIXELS};
 use image::metadata::Orientation;
 use normalight_core::Samples;
 use std::io::Cursor;
 use tiff::ColorType;
+use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::{IfdPointer, Tag};
 
@@ -46,6 +46,9 @@ fn refused(what: &str) -> Failure {
 
 const PALETTE: u16 = 3;
 const COLOR_SPACE: Tag = Tag::Unknown(0xA001);
+const GAMMA: Tag = Tag::Unknown(0xA500);
+const INTEROPERABILITY: Tag = Tag::Unknown(0xA005);
+const INTEROPERABILITY_INDEX: Tag = Tag::Unknown(1);
 const DNG_VERSION: Tag = Tag::Unknown(50_706);
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Page, Failure> {
@@ -104,21 +107,40 @@ fn open(bytes: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, Failure> {
 }
 
 fn statement(decoder: &mut Decoder<Cursor<&[u8]>>) -> Statement {
-    if let Ok(profile) = decoder.get_tag_u8_vec(Tag::IccProfile) {
-        return Profile::statement(&profile);
-    }
     let exif = decoder.find_tag_unsigned::<u64>(Tag::ExifDirectory);
-    let exif = exif.ok().flatten().map(IfdPointer);
-    let directory = exif.and_then(|pointer| decoder.read_directory(pointer).ok());
-    let space = directory.and_then(|directory| {
-        let mut tags = decoder.read_directory_tags(&directory);
-        tags.find_tag_unsigned::<u16>(COLOR_SPACE).ok().flatten()
-    });
-    match space {
-        Some(1) => Statement::Srgb,
-        Some(2) => Statement::Power(2.2),
-        _ => Statement::Nothing,
+    let exif = match exif.ok().flatten() {
+        Some(pointer) => exif_color(decoder, pointer).unwrap_or_default(),
+        None => ExifColor::default(),
+    };
+    match decoder.get_tag_u8_vec(Tag::IccProfile) {
+        Ok(profile) => of_profile(&profile, exif.statement()),
+        Err(_) => exif.statement(),
     }
+}
+
+/// What the EXIF directory of the page says.
+fn exif_color(decoder: &mut Decoder<Cursor<&[u8]>>, pointer: u64) -> Option<ExifColor> {
+    let directory = decoder.read_directory(IfdPointer(pointer)).ok()?;
+    let mut tags = decoder.read_directory_tags(&directory);
+    let space = tags.find_tag_unsigned(COLOR_SPACE).ok().flatten();
+    let gamma = match tags.find_tag(GAMMA) {
+        Ok(Some(Value::Rational(over, under))) => Some(over as f32 / under as f32),
+        _ => None,
+    };
+    let below = tags.find_tag_unsigned(INTEROPERABILITY).ok().flatten();
+    let below = below.and_then(|pointer| decoder.read_directory(IfdPointer(pointer)).ok());
+    let interoperability = below.and_then(|directory| {
+        let mut tags = decoder.read_directory_tags(&directory);
+        match tags.find_tag(INTEROPERABILITY_INDEX) {
+            Ok(Some(Value::Ascii(text))) => Some(text),
+            _ => None,
+        }
+    });
+    Some(ExifColor {
+        space,
+        interoperability,
+        gamma,
+    })
 }
 
 /// Samples and the number of channels that are handed on.
@@ -297,12 +319,4 @@ fn as_grey(bytes: &[u8]) -> Option<Vec<u8>> {
     let one = if little { [1, 0] } else { [0, 1] };
     grey.get_mut(value..value + 2)?.copy_from_slice(&one);
     Some(grey)
-}
-
-fn samples_len(samples: &Samples) -> usize {
-    match samples {
-        Samples::U8(codes) => codes.len(),
-        Samples::U16(codes) => codes.len(),
-        Samples::F32(values) => values.len(),
-    }
 }
