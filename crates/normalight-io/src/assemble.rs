@@ -1,23 +1,16 @@
 //! Decodes what a plan names, and decides what only the pixels can tell.
-use crate::color::evidence::encoded_factor;
+use crate::color::decision;
 use crate::decode::{Stored, decode_stored, turned_mask};
 use crate::format::{base_name, is_foreign, not_an_image};
 use crate::input::mask_label;
-use crate::input_plan::{ColorDecision, ColorReason, InputPlan};
+use crate::input_plan::InputPlan;
 use crate::plan::{StackPlan, is_helper};
 use crate::turn::turned;
-use crate::{
-    ColorMode, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots,
-};
+use crate::{IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
 use image::metadata::Orientation;
 use normalight_core::{
-    ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, Transfer, evenly_spaced_indices,
+    ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, evenly_spaced_indices,
 };
-
-/// How much better one reading must explain the photographs to be believed where nothing is said.
-const CLEAR: f32 = 1.25;
-/// ... and to be said where something else was taken.
-const CONTRADICTED: f32 = 2.0;
 
 /// The decoded photographs and what was found out on the way.
 struct Shots {
@@ -75,14 +68,14 @@ pub(crate) fn assemble(
         (None, _) => (Mask::guess(&stack), MaskSource::Guessed),
     };
     check_mask(&stack, &mask, &mask_source)?;
-    let color = decide_color(
+    let (color, doubts) = decision::decide(
         &mut stack,
         &mask,
         &shots.stated,
-        &plan,
+        plan.benchmark,
         options.color,
-        &mut notices,
     );
+    notices.extend(doubts);
     // The guess sees light, not codes.
     let mask = match mask_source == MaskSource::Guessed && unstated {
         true => Mask::guess(&stack),
@@ -198,77 +191,6 @@ fn most_frequent(turns: &[Orientation]) -> Orientation {
     let count = |wanted: &Orientation| turns.iter().filter(|turn| *turn == wanted).count();
     let most = turns.iter().max_by_key(|turn| count(turn));
     most.copied().unwrap_or(Orientation::NoTransforms)
-}
-
-/// How samples are taken to relate to light, and why; sets the transfer of images that say nothing.
-fn decide_color(
-    stack: &mut ImageStack,
-    mask: &Mask,
-    stated: &[Option<String>],
-    plan: &StackPlan,
-    asked: ColorMode,
-    notices: &mut Vec<Notice>,
-) -> ColorDecision {
-    let benchmark = plan.benchmark && asked == ColorMode::Auto;
-    let unstated: Vec<usize> = (0..stated.len()).filter(|&k| stated[k].is_none()).collect();
-    let factor = match benchmark {
-        true => None,
-        false => encoded_factor(stack, mask),
-    };
-    let is_8_bit = |&image: &usize| matches!(stack.images()[image].samples, Samples::U8(_));
-    let decided = match factor {
-        _ if unstated.is_empty() => None,
-        _ if benchmark => Some((Transfer::Linear, ColorReason::Benchmark)),
-        _ if !unstated.iter().all(is_8_bit) => Some((Transfer::Linear, ColorReason::Usual)),
-        Some(factor) if factor < 1.0 / CLEAR => Some((Transfer::Linear, ColorReason::Shading)),
-        Some(factor) if factor > CLEAR => Some((Transfer::Srgb, ColorReason::Shading)),
-        _ => Some((Transfer::Srgb, ColorReason::Usual)),
-    };
-    let word = |transfer| match transfer {
-        Transfer::Linear => "linear",
-        Transfer::Srgb => "sRGB",
-    };
-    if let Some((transfer, because)) = decided {
-        for &image in &unstated {
-            stack.set_transfer(image, transfer);
-        }
-        if because != ColorReason::Benchmark {
-            notices.push(Notice::ColorUnstated {
-                taken: word(transfer).to_owned(),
-            });
-        }
-    }
-    let all = |wanted| stack.images().iter().all(|image| image.transfer == wanted);
-    let integers = |image: &StackImage| !matches!(image.samples, Samples::F32(_));
-    if let Some(factor) = factor
-        && stack.images().iter().all(integers)
-    {
-        let looks = match factor {
-            factor if factor > CONTRADICTED && all(Transfer::Linear) => Some(Transfer::Srgb),
-            factor if factor < 1.0 / CONTRADICTED && all(Transfer::Srgb) => Some(Transfer::Linear),
-            _ => None,
-        };
-        if let Some(looks) = looks {
-            let taken = stack.images()[0].transfer;
-            notices.push(Notice::LooksOtherwise {
-                taken: word(taken).to_owned(),
-                looks: word(looks).to_owned(),
-                factor: factor.max(1.0 / factor),
-            });
-        }
-    }
-    let mut said: Vec<String> = stated.iter().flatten().cloned().collect();
-    said.extend(decided.map(|(transfer, _)| word(transfer).to_owned()));
-    said.sort();
-    said.dedup();
-    ColorDecision {
-        taken: said.join(" and "),
-        because: match (asked, decided) {
-            (ColorMode::Auto, Some((_, because))) => because,
-            (ColorMode::Auto, None) => ColorReason::Stated,
-            _ => ColorReason::Asked,
-        },
-    }
 }
 
 /// Positions in the plan of the images to read.

@@ -1,14 +1,22 @@
 //! How samples relate to light: what was asked, what a file says, what is usual.
-pub(crate) mod evidence;
+mod code_points;
+pub(crate) mod decision;
+mod encoding;
+mod evidence;
+mod exif;
 mod png_chunks;
-pub(crate) mod profile;
+mod profile;
+mod tables;
 
+pub(crate) use encoding::{Curves, Encoding, Primaries, to_srgb};
+pub(crate) use exif::{ExifColor, of_exif};
 pub(crate) use png_chunks::of_png;
+pub(crate) use profile::of_profile;
 
 use normalight_core::{Samples, Transfer};
-use profile::Profile;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use tables::Tables;
 
 /// How the samples of photographs are taken to relate to light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -46,35 +54,61 @@ pub(crate) enum Statement {
     Linear,
     /// The sRGB curve.
     Srgb,
-    /// A power: light is the sample to this exponent.
-    Power(f32),
     /// Curves and primaries.
-    Profile(Profile),
-    /// Something that is not understood, and why.
-    Unknown(String),
+    Encoded(Encoding),
+    /// Tables of a profile.
+    Tables(Tables),
+    /// Something that is not understood.
+    Unknown {
+        /// Why.
+        reason: String,
+        /// What is believed instead.
+        instead: Box<Statement>,
+    },
 }
 
 impl Statement {
+    /// What cannot be understood is taken as what else is said, or as sRGB: who says something of
+    /// colours has made them for viewing.
+    pub(crate) fn unknown(reason: String, instead: Self) -> Self {
+        let instead = match instead {
+            Self::Nothing => Self::Srgb,
+            said => said,
+        };
+        Self::Unknown {
+            reason,
+            instead: Box::new(instead),
+        }
+    }
+
+    /// This, unless it says nothing.
+    pub(crate) fn or(self, other: impl FnOnce() -> Self) -> Self {
+        match self {
+            Self::Nothing => other(),
+            said => said,
+        }
+    }
+
     /// In words.
     pub(crate) fn words(&self) -> String {
         match self {
             Self::Nothing => "nothing".to_owned(),
             Self::Linear => "linear".to_owned(),
             Self::Srgb => "sRGB".to_owned(),
-            Self::Power(power) => format!("gamma {power:.2}"),
-            Self::Profile(profile) => format!("the colour profile {}", profile.name),
-            Self::Unknown(_) => "sRGB".to_owned(),
+            Self::Encoded(encoding) => encoding.name.clone(),
+            Self::Tables(tables) => tables.name.clone(),
+            Self::Unknown { instead, .. } => instead.words(),
         }
     }
 
     /// Samples and transfer as this statement has them; `channels` colours, no alpha.
     pub(crate) fn apply(&self, samples: Samples, channels: usize) -> (Samples, Transfer) {
-        let linear = |samples| (samples, Transfer::Linear);
         match self {
-            Self::Nothing | Self::Linear => linear(samples),
-            Self::Srgb | Self::Unknown(_) => (samples, Transfer::Srgb),
-            Self::Power(power) => linear(Samples::F32(mapped(&samples, |v| v.powf(*power)))),
-            Self::Profile(profile) => linear(Samples::F32(profile.linear(&samples, channels))),
+            Self::Nothing | Self::Linear => (samples, Transfer::Linear),
+            Self::Srgb => (samples, Transfer::Srgb),
+            Self::Encoded(encoding) => (encoding.linear(&samples, channels), Transfer::Linear),
+            Self::Tables(tables) => (tables.linear(&samples, channels), Transfer::Linear),
+            Self::Unknown { instead, .. } => instead.apply(samples, channels),
         }
     }
 }
@@ -96,5 +130,14 @@ pub(crate) fn mapped(samples: &Samples, curve: impl Fn(f32) -> f32) -> Vec<f32> 
             codes.iter().map(|&code| table[usize::from(code)]).collect()
         }
         Samples::F32(values) => values.iter().map(|&value| curve(value)).collect(),
+    }
+}
+
+/// Number of samples, all channels together.
+pub(crate) fn samples_len(samples: &Samples) -> usize {
+    match samples {
+        Samples::U8(codes) => codes.len(),
+        Samples::U16(codes) => codes.len(),
+        Samples::F32(values) => values.len(),
     }
 }

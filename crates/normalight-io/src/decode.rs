@@ -7,7 +7,7 @@ mod raw;
 mod source;
 mod tiff;
 
-use crate::color::{ColorMode, Statement};
+use crate::color::{ColorMode, Encoding, Statement};
 use crate::format::{detect_format, format_name, format_of_extension, split_extension};
 use crate::turn::turned;
 use crate::{IoError, Limits, Notice};
@@ -110,10 +110,11 @@ pub(crate) fn decode_stored(
         inside,
     } = parted(raw.samples, raw.channels, raw.premultiplied);
     let statement = taken(color, format, &samples, raw.statement);
-    if let Statement::Unknown(reason) = &statement {
+    if let Statement::Unknown { reason, instead } = &statement {
         notices.push(Notice::ProfileNotUnderstood {
             file: name.to_owned(),
             reason: reason.clone(),
+            taken: instead.words(),
         });
     }
     let stated = (!matches!(statement, Statement::Nothing)).then(|| statement.words());
@@ -159,7 +160,8 @@ fn taken(color: ColorMode, format: ImageFormat, samples: &Samples, said: Stateme
         {
             Statement::Srgb
         }
-        (ColorMode::Auto, Statement::Srgb) if floating => Statement::Power(2.2),
+        // The curve goes on beyond full scale.
+        (ColorMode::Auto, Statement::Srgb) if floating => Statement::Encoded(Encoding::srgb()),
         (ColorMode::Auto, said) => said,
     }
 }

@@ -3,9 +3,9 @@ mod aside;
 mod diligent;
 mod disk;
 mod files;
-mod inside;
 #[cfg(fuzzing)]
 pub mod fuzzing;
+mod inside;
 mod intensities;
 mod matlab;
 mod meshes;

@@ -83,17 +83,27 @@ pub enum Notice {
         /// The shots that say otherwise than most.
         files: Vec<String>,
     },
-    /// A profile that cannot be honoured; the samples were taken as sRGB.
+    /// A profile, or what else a file says of its colours, that cannot be honoured.
     ProfileNotUnderstood {
         /// The file.
         file: String,
-        /// What is wrong with the profile.
+        /// What is wrong with it.
         reason: String,
+        /// How the samples were taken instead.
+        taken: String,
     },
     /// Nothing in the files says how samples relate to light.
     ColorUnstated {
         /// How they were taken.
         taken: String,
+        /// Where the shading decided: how often such an answer is right, 0 to 1, measured on rendered
+        /// objects.
+        sure: Option<f32>,
+    },
+    /// The files say different things of their colours; each was read as it says.
+    ColorMixed {
+        /// What is said, or how files that say nothing were taken, each with the first such file.
+        said: Vec<String>,
     },
     /// Samples taken as linear look as if a curve for viewing lay on them, or the other way round.
     LooksOtherwise {
@@ -103,6 +113,8 @@ pub enum Notice {
         looks: String,
         /// By how much the other reading explains the photographs better, as a factor.
         factor: f32,
+        /// How often such an answer is right, 0 to 1, measured on rendered objects.
+        sure: f32,
     },
     /// The mask is the transparency of its file.
     MaskFromTransparency {
@@ -251,17 +263,34 @@ impl fmt::Display for Notice {
                 "{}: turned otherwise than the other shots by their EXIF orientation; pixels of all shots were taken as stored",
                 some_names(files)
             ),
-            Self::ProfileNotUnderstood { file, reason } => write!(
+            Self::ProfileNotUnderstood { file, reason, taken } => write!(
                 f,
-                "{file}: its colour profile is not understood ({reason}); taken as sRGB"
+                "{file}: what it says of its colours is not understood ({reason}); taken as {taken}"
             ),
-            Self::ColorUnstated { taken } => write!(
+            Self::ColorUnstated { taken, sure } => {
+                write!(
+                    f,
+                    "nothing in the photographs says how their numbers relate to light; taken as {taken}"
+                )?;
+                match sure {
+                    Some(sure) if *sure > 0.5 => {
+                        write!(f, " by their shading ({:.0} % sure)", sure * 100.0)?;
+                    }
+                    Some(_) => f.write_str(" by their shading, which is hardly better than a guess")?,
+                    None => f.write_str(", as such files usually are")?,
+                }
+                f.write_str("; the colour setting (--color) says otherwise")
+            }
+            Self::ColorMixed { said } => write!(
                 f,
-                "nothing in the photographs says how their numbers relate to light; taken as {taken}"
+                "the photographs say different things of their colours; each was read as it says: {}",
+                some_names(said)
             ),
-            Self::LooksOtherwise { taken, looks, factor } => write!(
+            Self::LooksOtherwise { taken, looks, factor, sure } => write!(
                 f,
-                "the photographs were taken as {taken} but look {looks} (which explains them {factor:.1} times better); if so, say it with the colour setting"
+                "the photographs were taken as {taken} but look {looks} (which explains them {factor:.1} times better; {:.0} % sure); if so, say it with the colour setting (--color {})",
+                sure * 100.0,
+                looks.to_lowercase()
             ),
             Self::MaskFromTransparency { file } => write!(
                 f,

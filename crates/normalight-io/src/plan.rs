@@ -1,4 +1,5 @@
 //! Which of some files are the photographs.
+mod benchmark;
 mod kinds;
 mod list;
 
@@ -90,8 +91,7 @@ pub fn plan_stack<S: AsRef<str>>(
             });
         }
     }
-    plan.benchmark =
-        kinds::is_benchmark(names) || list.is_some_and(|(_, text)| list::has_lights(text));
+    plan.benchmark = benchmark::is_benchmark(names, list.map(|(_, text)| text));
     Ok(plan)
 }
 

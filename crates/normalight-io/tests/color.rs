@@ -116,6 +116,7 @@ fn deep_pngs_are_linear_with_a_word() {
     );
     let unstated = Notice::ColorUnstated {
         taken: "linear".into(),
+        sure: None,
     };
     assert!(input.plan.notices.contains(&unstated));
     let (input, transfer) = read(stack(true, true, names), ColorMode::Auto);

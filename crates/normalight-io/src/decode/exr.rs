@@ -3,7 +3,7 @@ mod layer;
 
 use super::raw::Raw;
 use super::source::Source;
-use crate::color::Statement;
+use crate::color::{Curves, Encoding, Primaries, Statement, to_srgb};
 use crate::{IoError, Notice};
 use exr::block::reader::ChunksReader;
 use exr::block::{UncompressedBlock, read};
@@ -38,6 +38,7 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
     let window = header.shared_attributes.display_window;
     let (width, height) = (window.size.0 as u32, window.size.1 as u32);
     source.check_size(width, height)?;
+    let statement = statement(header);
     let data = header.own_attributes.layer_position;
     let stored = header.layer_size;
     source.check_size(stored.0 as u32, stored.1 as u32)?;
@@ -91,10 +92,22 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
         samples: Samples::F32(frame.values),
         // As the format has it.
         premultiplied: true,
-        statement: Statement::Linear,
+        statement,
         orientation: Orientation::NoTransforms,
         notices,
     })
+}
+
+/// Linear, in the primaries that the file states.
+fn statement(header: &Header) -> Statement {
+    let Some(stated) = header.shared_attributes.chromaticities else {
+        return Statement::Linear;
+    };
+    let points = [stated.red, stated.green, stated.blue, stated.white];
+    let primaries: Primaries = points.map(|point| [point.0, point.1]);
+    let name = "linear in its own primaries".to_owned();
+    Encoding::statement(name, Curves::Linear, Some(to_srgb(primaries)))
+        .unwrap_or_else(|reason| Statement::unknown(reason, Statement::Linear))
 }
 
 /// Names of channels, for a message.

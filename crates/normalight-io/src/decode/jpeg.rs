@@ -3,8 +3,7 @@ pub(super) mod marks;
 
 use super::raw::Raw;
 use super::source::Source;
-use crate::color::Statement;
-use crate::color::profile::Profile;
+use crate::color::{Statement, of_exif, of_profile};
 use crate::{IoError, Notice};
 use image::metadata::Orientation;
 use normalight_core::Samples;
@@ -47,12 +46,13 @@ pub(super) fn decode(source: &Source) -> Result<Raw, IoError> {
     if codes.len() != width as usize * height as usize * channels {
         return Err(source.damaged("its size is not that of its frame"));
     }
+    let exif = decoder.exif();
+    let orientation = exif.and_then(|exif| Orientation::from_exif_chunk(exif));
+    let said = exif.map_or(Statement::Nothing, |exif| of_exif(exif.clone()));
     let statement = match decoder.icc_profile() {
-        Some(profile) => Profile::statement(&profile),
-        None => Statement::Nothing,
+        Some(profile) => of_profile(&profile, said),
+        None => said,
     };
-    let orientation = decoder.exif();
-    let orientation = orientation.and_then(|exif| Orientation::from_exif_chunk(exif));
     let mut notices = Vec::new();
     let pictures = marks::pictures(source.bytes);
     if pictures > 1 {

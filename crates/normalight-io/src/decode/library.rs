@@ -1,8 +1,7 @@
 //! Formats that the library `image` reads right as it is: PNG, WebP, BMP, TGA, QOI, PNM.
 use super::raw::Raw;
 use super::source::Source;
-use crate::color::profile::Profile;
-use crate::color::{Statement, of_png};
+use crate::color::{Statement, of_exif, of_png, of_profile};
 use crate::{IoError, Notice};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use normalight_core::Samples;
@@ -23,11 +22,15 @@ pub(super) fn decode(source: &Source, format: ImageFormat) -> Result<Raw, IoErro
     source.check_size(width, height)?;
     let statement = match format {
         ImageFormat::Png => of_png(source.bytes),
-        // A damaged profile must not hide a good picture.
-        _ => match decoder.icc_profile() {
-            Ok(Some(profile)) => Profile::statement(&profile),
-            _ => Statement::Nothing,
-        },
+        // A damaged profile or block must not hide a good picture.
+        _ => {
+            let exif = decoder.exif_metadata().ok().flatten();
+            let exif = exif.map_or(Statement::Nothing, of_exif);
+            match decoder.icc_profile() {
+                Ok(Some(profile)) => of_profile(&profile, exif),
+                _ => exif,
+            }
+        }
     };
     let orientation = decoder.orientation().map_err(failed)?;
     let pixels = DynamicImage::from_decoder(decoder).map_err(failed)?;

@@ -9,8 +9,7 @@ mod tags;
 
 use super::raw::Raw;
 use super::source::Source;
-use crate::color::Statement;
-use crate::color::profile::Profile;
+use crate::color::{ExifColor, Statement, of_profile};
 use crate::{IoError, Notice};
 use bare::Bare;
 use codes::Codes;
@@ -96,13 +95,28 @@ fn unpacked(source: &Source, bare: Bare) -> Result<DecodingResult, IoError> {
 }
 
 fn statement(file: &File, page: &Directory) -> Statement {
-    if let Some(profile) = page.bytes(tags::PROFILE) {
-        return Profile::statement(profile);
-    }
     let exif = page.one(tags::EXIF).and_then(|at| file.directory(at));
-    match exif.and_then(|exif| exif.one(tags::EXIF_COLOR_SPACE)) {
-        Some(1) => Statement::Srgb,
-        Some(2) => Statement::Power(2.2),
-        _ => Statement::Nothing,
+    let exif = exif.map(|exif| exif_color(file, &exif)).unwrap_or_default();
+    match page.bytes(tags::PROFILE) {
+        Some(profile) => of_profile(profile, exif.statement()),
+        None => exif.statement(),
+    }
+}
+
+/// What the EXIF directory of a page says.
+fn exif_color(file: &File, exif: &Directory) -> ExifColor {
+    let space = exif.one(tags::EXIF_COLOR_SPACE);
+    let below = exif.one(tags::EXIF_INTEROPERABILITY);
+    let below = below.and_then(|at| file.directory(at));
+    let index = below.and_then(|below| below.bytes(tags::INTEROPERABILITY_INDEX));
+    let text = |bytes: &[u8]| {
+        String::from_utf8_lossy(bytes)
+            .trim_end_matches('\0')
+            .to_owned()
+    };
+    ExifColor {
+        space: space.map(|space| space.min(u64::from(u32::MAX)) as u32),
+        interoperability: index.map(text),
+        gamma: exif.fractions(tags::EXIF_GAMMA).first().copied(),
     }
 }

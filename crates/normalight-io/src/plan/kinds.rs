@@ -137,19 +137,3 @@ pub(super) fn left_out_reason(name: &str) -> Option<LeftOutReason> {
         None => LeftOutReason::NotAnImage,
     })
 }
-
-/// Whether the files lie as those of DiLiGenT or of the sets that are published like it: then
-/// their samples are linear, whatever their format says.
-pub(super) fn is_benchmark<S: AsRef<str>>(names: &[S]) -> bool {
-    let marks = [
-        "filenames.txt",
-        "light_directions.txt",
-        "light_intensities.txt",
-        "normal_gt.mat",
-    ];
-    let has = |mark: &&str| {
-        let is = |name: &S| base_name(name.as_ref()).eq_ignore_ascii_case(mark);
-        names.iter().any(is)
-    };
-    marks.iter().filter(|mark| has(mark)).count() >= 2
-}

@@ -76,18 +76,3 @@ fn image_name(line: &str) -> Option<&str> {
         .flatten()
         .find(|name| format_of_extension(name).is_some())
 }
-
-/// Whether lights stand beside the names of a list, as in published sets.
-pub(super) fn has_lights(text: &str) -> bool {
-    let beside = |line: &str| {
-        let words = line.split_whitespace().skip(1);
-        let numbers = words.map(|word| word.parse::<f32>().is_ok());
-        let (all, count) = numbers.fold((true, 0), |(all, n), is| (all && is, n + 1));
-        all && matches!(count, 3 | 4 | 6)
-    };
-    let mut lines = text
-        .lines()
-        .filter(|line| !line.trim().is_empty())
-        .peekable();
-    lines.peek().is_some() && lines.all(beside)
-}

@@ -6,6 +6,7 @@ pub mod meshes;
 pub mod published;
 
 use image::{DynamicImage, ImageFormat};
+use normalight_core::Samples;
 use normalight_io::NamedBytes;
 use std::io::Cursor;
 
@@ -71,4 +72,16 @@ pub fn mask_png(width: u32, height: u32, inside: impl Fn(u32, u32) -> bool) -> V
         image::Rgb([255 * u8::from(inside(x, y)); 3])
     });
     encode(&DynamicImage::ImageRgb8(image), ImageFormat::Png)
+}
+
+/// Samples as numbers, full scale 1.
+pub fn values(samples: &Samples) -> Vec<f32> {
+    match samples {
+        Samples::U8(codes) => codes.iter().map(|&code| f32::from(code) / 255.0).collect(),
+        Samples::U16(codes) => codes
+            .iter()
+            .map(|&code| f32::from(code) / 65_535.0)
+            .collect(),
+        Samples::F32(values) => values.clone(),
+    }
 }

@@ -31,6 +31,10 @@ pub(super) const REFERENCES: u16 = 532;
 pub(super) const PROFILE: u16 = 34_675;
 pub(super) const EXIF: u16 = 34_665;
 pub(super) const EXIF_COLOR_SPACE: u16 = 0xA001;
+pub(super) const EXIF_GAMMA: u16 = 0xA500;
+pub(super) const EXIF_INTEROPERABILITY: u16 = 0xA005;
+/// In the directory of [`EXIF_INTEROPERABILITY`].
+pub(super) const INTEROPERABILITY_INDEX: u16 = 1;
 pub(super) const DNG_VERSION: u16 = 50_706;
 
 /// Values of [`COMPRESSION`].
