@@ -1,17 +1,24 @@
 //! Normals to depth.
 mod bilateral;
+mod bow;
+mod curvature;
 mod cycle;
+mod derivatives;
 mod equations;
 mod graph;
 mod grid;
 mod integrate;
 mod map;
+mod occlusion;
 mod pairing;
 mod pyramid;
 mod solver;
+mod surface;
 
+pub use bow::Bow;
 pub use integrate::integrate_normals;
 pub use map::DepthMap;
+pub use surface::DepthMesh;
 
 use serde::{Deserialize, Serialize};
 

@@ -44,6 +44,7 @@ mod normal_map;
 mod quality;
 mod rect;
 mod refit;
+mod seamless;
 mod stack;
 mod statistics;
 mod symmetry;
@@ -54,7 +55,9 @@ pub use albedo::albedo_map;
 pub use angles::{angle_between, direction_from_angles, direction_to_angles};
 pub use bins::{Decoding, IntensityBins, IntensitySpacing, LightBins, LightClasses};
 pub use calibrated::CalibratedStack;
-pub use depth::{DepthMap, DepthSettings, Integration, Projection, integrate_normals};
+pub use depth::{
+    Bow, DepthMap, DepthMesh, DepthSettings, Integration, Projection, integrate_normals,
+};
 pub use error::CoreError;
 pub use estimate::{Estimate, EstimateSettings};
 pub use glam::Vec3;
@@ -68,6 +71,7 @@ pub use normal_map::NormalMap;
 pub use quality::Quality;
 pub use rect::Rect;
 pub use refit::{RefitSettings, refit_lights};
+pub use seamless::Seamless;
 pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage, evenly_spaced_indices};
 pub use statistics::StackStatistics;
 pub use symmetry::Symmetry;

@@ -1,4 +1,5 @@
 mod guess;
+mod nearest;
 
 use crate::Rect;
 
