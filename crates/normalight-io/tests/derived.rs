@@ -281,9 +281,15 @@ fn normals_made_elsewhere_are_read() {
     ];
     for (name, bytes, format, tolerance) in files {
         let (read, found) = read_normals(name, &bytes, format).unwrap();
-        assert_eq!(found, mask, "{name}");
-        for (one, other) in read.normals().iter().zip(normals.normals()) {
-            assert!(one.distance(*other) < tolerance, "{name}: {one} {other}");
+        // A picture without transparency does not say where the object ends.
+        let expected = match format {
+            NormalFormat::DirectX => Mask::whole(SIDE, SIDE),
+            NormalFormat::OpenGl => mask.clone(),
+        };
+        assert_eq!(found, expected, "{name}");
+        for pixel in mask.pixels() {
+            let (one, other) = (read.normals()[pixel], normals.normals()[pixel]);
+            assert!(one.distance(other) < tolerance, "{name}: {one} {other}");
         }
         for cut in [9, 40, bytes.len() / 2] {
             assert!(read_normals(name, &bytes[..cut], format).is_err());

@@ -62,11 +62,14 @@ pub(super) fn assemble(
             ];
             for (link, share, misfit) in sides {
                 if field.inside[link] && field.inside[link + step] {
-                    weights[link] += share * own.facing * own.facing;
-                    let flux = share * own.facing * own.slopes[axis];
-                    rhs[link] -= flux;
-                    rhs[link + step] += flux;
-                    energy += f64::from(share * misfit * misfit);
+                    let other = field.equations[if link == place { place + step } else { link }];
+                    let weight = share * own.weight_beside(other);
+                    let slope = own.slopes[axis] / own.facing;
+                    weights[link] += weight;
+                    rhs[link] -= weight * slope;
+                    rhs[link + step] += weight * slope;
+                    let misfit = misfit / own.facing;
+                    energy += f64::from(weight * misfit * misfit);
                 }
             }
         }

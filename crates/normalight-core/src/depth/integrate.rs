@@ -12,6 +12,17 @@ use crate::{CoreError, Mask, NormalMap};
 /// thread, the same on every machine; takes about 110 bytes a pixel of the mask's bounding box besides
 /// `normals`.
 ///
+/// Measured on exact normals of 40 rendered meshes (`examples/depth_errors.rs` of normalight-io, 256 pixels wide;
+/// error in percent of the object's larger side, mean over the objects; each part moved to fit):
+///
+/// | | median | root mean square |
+/// | --- | --- | --- |
+/// | bilateral | 0.99 | 4.35 |
+/// | plain least squares | 1.46 | 4.59 |
+///
+/// What is left are parts that touch nowhere near their steps. Where steps show (koala, croissant, bust) bilateral
+/// is better by a factor of 3 to 20; on smooth reliefs both are alike; a few shapes are worse (scorpion, vase).
+///
 /// Normals say nothing about how far apart two surfaces lie which touch nowhere: parts of the mask have a
 /// mean height of zero each, and within a part the smallest step that fits is found.
 ///
