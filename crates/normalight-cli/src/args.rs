@@ -1,6 +1,8 @@
 //! What the commands take; these comments are their help.
 mod search;
+mod surface;
 
+pub(crate) use surface::{MeshArgs, SurfaceArgs};
 pub(crate) use search::{CompareArgs, DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
 
 use crate::choices::{
@@ -32,6 +34,8 @@ Example: photographs in the folder `vase`, results into the folder `vase-normals
 pub(crate) enum Command {
     /// Photographs in, lights and normals out.
     Estimate(EstimateArgs),
+    /// Normals in, depth, a mesh and maps out.
+    Mesh(MeshArgs),
     /// Train one of the two networks on rendered samples.
     Train(TrainArgs),
     /// Search for the cells of one of the two networks, and compare what was found.
@@ -88,6 +92,8 @@ pub(crate) struct EstimateArgs {
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) color: ColorChoice,
     #[command(flatten)]
+    pub(crate) surface: SurfaceArgs,
+    #[command(flatten)]
     pub(crate) estimation: EstimationArgs,
     /// Name every file in what is said about the input.
     #[arg(long, conflicts_with = "quiet")]
@@ -98,7 +104,8 @@ pub(crate) struct EstimateArgs {
 }
 
 const ESTIMATE_EXAMPLES: &str = "\
-Results: normals.png (16 bit), normals.npy, lights.csv, lights.lp, lights.svg, albedo.png, mask.png, report.json.
+Results: normals.png (16 bit), normals.npy, lights.csv, lights.lp, lights.svg, albedo.png, mask.png, report.json;
+with --depth, --mesh and --maps those of `normalight mesh`, and depth.json.
 
 Examples:
   normalight estimate vase --out vase-normals
