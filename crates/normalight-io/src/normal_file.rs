@@ -94,7 +94,7 @@ fn array(name: &str, bytes: &[u8]) -> Result<Vectors, IoError> {
         (shape, Order::C) if shape.len() == 3 && shape[2] == 3 => (shape[0], shape[1]),
         (shape, _) => return Err(wrong(name, format!("an array of shape {shape:?}"))),
     };
-    let pixels = height.checked_mul(width).unwrap_or(u64::MAX);
+    let pixels = height.saturating_mul(width);
     if pixels == 0 || pixels > crate::MAX_PIXELS {
         return Err(wrong(name, format!("{width}x{height} pixels")));
     }

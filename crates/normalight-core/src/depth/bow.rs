@@ -85,8 +85,9 @@ fn solved(mut matrix: [[f64; TERMS]; TERMS], mut rhs: [f64; TERMS]) -> [f64; TER
         }
         for row in pivot + 1..TERMS {
             let factor = matrix[row][pivot] / matrix[pivot][pivot];
-            for column in pivot..TERMS {
-                matrix[row][column] -= factor * matrix[pivot][column];
+            let above = matrix[pivot];
+            for (value, above) in matrix[row].iter_mut().zip(above).skip(pivot) {
+                *value -= factor * above;
             }
             rhs[row] -= factor * rhs[pivot];
         }
