@@ -4,6 +4,7 @@ mod estimate;
 mod evaluate;
 mod render;
 mod search;
+mod surface;
 mod train;
 
 pub(crate) use bench::{
@@ -13,6 +14,7 @@ pub(crate) use estimate::{EstimateArgs, EstimationArgs};
 pub(crate) use evaluate::EvaluateArgs;
 pub(crate) use render::{LibraryArgs, RenderArgs};
 pub(crate) use search::{CompareArgs, DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
+pub(crate) use surface::{MeshArgs, SurfaceArgs};
 pub(crate) use train::TrainArgs;
 
 use clap::{Parser, Subcommand};
@@ -38,6 +40,8 @@ Example: photographs in the folder `vase`, results into the folder `vase-normals
 pub(crate) enum Command {
     /// Photographs in, lights and normals out.
     Estimate(EstimateArgs),
+    /// Normals in, depth, a mesh and maps out.
+    Mesh(MeshArgs),
     /// Train one of the two networks on rendered samples.
     Train(TrainArgs),
     /// Search for the cells of one of the two networks, and compare what was found.

@@ -2,7 +2,7 @@
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use normalight_core::Decoding;
-use normalight_io::{ColorMode, NormalFormat};
+use normalight_io::{ColorMode, MeshFileFormat, NormalFormat, Outside};
 use normalight_model::Quality;
 use normalight_search::Equal;
 use normalight_synth::BitDepth;
@@ -58,6 +58,26 @@ pub(crate) enum FormatChoice {
     Opengl,
     /// Green is down.
     Directx,
+}
+
+/// The format of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MeshChoice {
+    /// Binary glTF, with the albedo as its texture.
+    Glb,
+    /// Wavefront OBJ, with material and texture beside it.
+    Obj,
+    /// Binary PLY, with colours of its vertices.
+    Ply,
+}
+
+/// What maps show outside the object.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OutsideChoice {
+    /// A surface that faces the camera.
+    Flat,
+    /// What the nearest pixel of the object has.
+    Dilated,
 }
 
 /// How the light network's classes become numbers.
@@ -124,6 +144,25 @@ impl From<FormatChoice> for NormalFormat {
         match choice {
             FormatChoice::Opengl => NormalFormat::OpenGl,
             FormatChoice::Directx => NormalFormat::DirectX,
+        }
+    }
+}
+
+impl From<MeshChoice> for MeshFileFormat {
+    fn from(choice: MeshChoice) -> Self {
+        match choice {
+            MeshChoice::Glb => MeshFileFormat::Glb,
+            MeshChoice::Obj => MeshFileFormat::Obj,
+            MeshChoice::Ply => MeshFileFormat::Ply,
+        }
+    }
+}
+
+impl From<OutsideChoice> for Outside {
+    fn from(choice: OutsideChoice) -> Self {
+        match choice {
+            OutsideChoice::Flat => Outside::Flat,
+            OutsideChoice::Dilated => Outside::Dilated,
         }
     }
 }

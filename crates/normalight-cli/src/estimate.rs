@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use normalight_core::{CoreError, Light};
 use normalight_io::{
     IoError, MaskChoice, OutputFolder, ReadOptions, RunDescription, StackInput, StageSeconds,
-    read_named, read_paths, result_files,
+    derived_files, read_named, read_paths, result_files,
 };
 use normalight_model::{EstimateInput, ModelError};
 use std::path::{Path, PathBuf};
@@ -67,12 +67,24 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         seconds: before.into_iter().chain(stages).collect(),
     }
     .report(&input);
-    let files = result_files(&input, &estimate, &report)?;
+    let mut files = result_files(&input, &estimate, &report)?;
+    let surface = args.surface.settings(args.normal_format.into());
+    let mut derived = None;
+    if surface.wanted() {
+        let albedo = Some(&estimate.albedo[..]);
+        let (more, known) = derived_files(&estimate.normals, albedo, &input.mask, surface)?;
+        // The report stays the last file: where it is, the others are complete.
+        files.splice(files.len() - 1..files.len() - 1, more);
+        derived = Some(known);
+    }
     if interrupt::asked() {
         return Ok(Outcome::Interrupted);
     }
     folder.write(&files)?;
     if !args.quiet {
+        if let Some(known) = derived {
+            print(&outputs::surface_summary(&known))?;
+        }
         let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
         print(&outputs::summary(
             &report,

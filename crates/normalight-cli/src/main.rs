@@ -8,6 +8,7 @@ mod display;
 mod estimate;
 mod evaluate;
 mod interrupt;
+mod mesh;
 mod monitor;
 mod outputs;
 mod progress;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = interrupt::listen().and_then(|()| match &arguments.command {
         Command::Estimate(args) => estimate::run(args),
+        Command::Mesh(args) => mesh::run(args),
         Command::Train(args) => train::run(args),
         Command::Search(args) => search::run(args),
         Command::Evaluate(args) => evaluate::run(args),

@@ -1,5 +1,5 @@
 //! What `estimate` says at the end.
-use normalight_io::Report;
+use normalight_io::{DerivedReport, Report};
 
 /// What a person wants to know afterwards.
 pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
@@ -20,4 +20,35 @@ pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
         seconds.join(", "),
         files.join(", "),
     )
+}
+
+/// What is to be known of depth.
+pub(crate) fn surface_summary(known: &DerivedReport) -> String {
+    let [low, high] = known.range;
+    let mut text = format!(
+        "depth:   {:.1} pixels from the lowest to the highest point",
+        high - low
+    );
+    for (count, what) in [
+        (
+            known.parts.saturating_sub(1),
+            "more part(s) of the mask, at a distance of their own",
+        ),
+        (known.missing, "pixel(s) without a normal, filled in"),
+        (
+            known.steep,
+            "pixel(s) turned away from the camera, filled in",
+        ),
+    ] {
+        if count > 0 {
+            text += &format!("; {count} {what}");
+        }
+    }
+    if known.torn > 0.0 {
+        text += &format!("; torn along {:.2} % of its neighbours", 100.0 * known.torn);
+    }
+    if let Some(step) = known.mesh_step.filter(|&step| step > 1) {
+        text += &format!("; the mesh has a vertex every {step} pixels");
+    }
+    text + "\n"
 }

@@ -111,6 +111,12 @@ pub enum CoreError {
         /// Height of the first map.
         expected_height: usize,
     },
+    /// A focal length that no camera has.
+    #[error("a focal length of {found} pixels, a number above zero is expected")]
+    FocalLength {
+        /// The focal length given, in pixels.
+        found: f32,
+    },
     /// A mesh without triangles.
     #[error("no triangles found, at least one is needed")]
     NoTriangles,

@@ -1,4 +1,5 @@
 mod guess;
+mod nearest;
 
 use crate::Rect;
 
@@ -119,7 +120,7 @@ impl Mask {
     }
 
     /// Labels the 4-connected parts whose flag is `value` from 1 upwards; other pixels get 0.
-    fn components(&self, value: bool) -> (Vec<usize>, Vec<usize>) {
+    pub(crate) fn components(&self, value: bool) -> (Vec<usize>, Vec<usize>) {
         let mut labels = vec![0; self.inside.len()];
         let mut sizes = vec![0];
         let mut stack = Vec::new();

@@ -219,6 +219,16 @@ pub enum IoError {
         /// What was expected.
         expected: String,
     },
+    /// A file of normals is not as expected.
+    #[error(
+        "{name}: found {found}, expected normals: an RGB image, or an array of floating-point numbers of shape [height, width, 3]"
+    )]
+    NormalFormat {
+        /// The file.
+        name: String,
+        /// What it holds.
+        found: String,
+    },
     /// A file was given that is no mesh by its extension, or a folder or list without meshes.
     #[error("{name}: found {found}, expected a mesh ({expected})")]
     NotAMesh {

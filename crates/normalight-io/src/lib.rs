@@ -33,6 +33,8 @@ mod archive;
 mod assemble;
 mod color;
 mod decode;
+mod depth_files;
+mod derived_files;
 mod error;
 mod format;
 mod input;
@@ -49,7 +51,9 @@ mod limits;
 mod maps;
 mod mask_file;
 mod mesh;
+mod mesh_files;
 mod names;
+mod normal_file;
 mod notice;
 mod packed;
 mod photographs;
@@ -61,6 +65,7 @@ mod shots;
 mod source;
 mod stack;
 mod text;
+mod texture_maps;
 mod turn;
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -71,6 +76,10 @@ pub use native::fuzzing;
 
 pub use color::ColorMode;
 pub use decode::{DecodedImage, decode_image};
+pub use depth_files::{
+    curvature_png, height_exr, height_png, height_tiff, normals_exr, occlusion_png,
+};
+pub use derived_files::{DerivedFiles, DerivedReport, DerivedSettings, derived_files};
 pub use error::IoError;
 pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
 pub use input_plan::{
@@ -89,6 +98,7 @@ pub use limits::{
 pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
 pub use mask_file::decode_mask;
 pub use mesh::read_mesh;
+pub use mesh_files::{MeshFileFormat, Texture, mesh_as_files};
 pub use names::NameMatch;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{
@@ -97,6 +107,7 @@ pub use native::{
     read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths,
     sweep_leftovers, write_files,
 };
+pub use normal_file::read_normals;
 pub use notice::Notice;
 pub use packed::{UnpackedFiles, is_archive};
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
@@ -106,3 +117,4 @@ pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json
 pub use result_files::{OutputName, RunDescription, result_files};
 pub use stack::read_stack;
 pub use text::read_text;
+pub use texture_maps::{MapSettings, Outside, albedo_map_png, normal_map_png};

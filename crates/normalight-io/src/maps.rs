@@ -29,7 +29,8 @@ impl NormalFormat {
     }
 }
 
-/// A normal map as 16-bit RGB PNG: `(n + 1) / 2 * 65535`, black outside the object.
+/// A normal map as 16-bit RGB PNG: `(n + 1) / 2 * 65535`. Outside the object it faces the camera: black would be a
+/// direction into the surface, which smaller copies of the map mix with the object's edge.
 ///
 /// # Errors
 /// [`IoError::Encode`] for a map that PNG cannot hold (no pixels).
@@ -39,7 +40,7 @@ pub fn normals_png(map: &NormalMap, format: NormalFormat) -> Result<Vec<u8>, IoE
         .normals()
         .iter()
         .flat_map(|&normal| match normal {
-            Vec3::ZERO => [0; 3],
+            Vec3::ZERO => format.exported(Vec3::Z).map(code),
             normal => format.exported(normal).map(code),
         })
         .collect();

@@ -1,5 +1,6 @@
 //! `estimate`, and the settings of an estimate that `evaluate` shares.
 
+use crate::args::SurfaceArgs;
 use crate::choices::{ColorChoice, DecodingChoice, DeviceChoice, FormatChoice, QualityChoice};
 use clap::Args;
 use normalight_io::LightAxes;
@@ -51,6 +52,8 @@ pub(crate) struct EstimateArgs {
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) color: ColorChoice,
     #[command(flatten)]
+    pub(crate) surface: SurfaceArgs,
+    #[command(flatten)]
     pub(crate) estimation: EstimationArgs,
     /// Name every file in what is said about the input.
     #[arg(long, conflicts_with = "quiet")]
@@ -61,7 +64,8 @@ pub(crate) struct EstimateArgs {
 }
 
 const ESTIMATE_EXAMPLES: &str = "\
-Results: normals.png (16 bit), normals.npy, lights.csv, lights.lp, lights.svg, albedo.png, mask.png, report.json.
+Results: normals.png (16 bit), normals.npy, lights.csv, lights.lp, lights.svg, albedo.png, mask.png, report.json;
+with --depth, --mesh and --maps those of `normalight mesh`, and depth.json.
 
 Examples:
   normalight estimate vase --out vase-normals
