@@ -22,7 +22,7 @@ pub(super) struct Background {
 impl Background {
     /// From the cells of the border; also tells which of them belong to the background's surfaces.
     pub(super) fn new(cells: &Cells, border: &[usize], floor: f32) -> (Self, Vec<bool>) {
-        let (surfaces, explained) = surfaces(Series::new(cells, border, floor));
+        let (surfaces, explained) = surfaces(&Series::new(cells, border, floor));
         (Self { surfaces, floor }, explained)
     }
 
@@ -88,11 +88,6 @@ impl Bins {
 pub(super) struct Densities([[f32; BINS]; FEATURES]);
 
 impl Densities {
-    /// Nothing is known.
-    pub(super) fn even() -> Self {
-        Self([[0.0; BINS]; FEATURES])
-    }
-
     /// Of cells with weights.
     pub(super) fn new(bins: &Bins, cells: impl Iterator<Item = (Features, f32)>) -> Self {
         let mut counts = [[0.0f32; BINS]; FEATURES];
@@ -104,7 +99,8 @@ impl Densities {
             }
         }
         if total <= 0.0 {
-            return Self::even();
+            // Nothing is known.
+            return Self([[0.0; BINS]; FEATURES]);
         }
         for counts in &mut counts {
             for _ in 0..2 {
@@ -119,11 +115,11 @@ impl Densities {
     }
 
     /// By how much more likely, as a logarithm, features are here than there.
-    pub(super) fn ratio(&self, other: &Self, bins: &Bins, features: Features) -> f32 {
+    pub(super) fn ratio(&self, there: &Self, bins: &Bins, features: Features) -> f32 {
         let all = features.into_iter().enumerate();
         all.map(|(feature, value)| {
             let bin = bins.bin(feature, value);
-            self.0[feature][bin] - other.0[feature][bin]
+            self.0[feature][bin] - there.0[feature][bin]
         })
         .sum()
     }

@@ -5,7 +5,7 @@ use super::walk::{Joint, Pull, walk};
 use crate::Mask;
 
 /// Part of the brightest cells' brightness below which light is noise.
-const DARK: f32 = 0.02;
+const DARK: f32 = 0.01;
 /// Width of the border that stands for the background, as a part of the frame's shorter side.
 const BORDER: usize = 24;
 /// How much a cell of the border counts as background that is on none of its surfaces: the object
@@ -18,10 +18,12 @@ const ROUNDS: usize = 4;
 const PULL: f32 = 0.1;
 /// Weight of labels that are settled.
 const SETTLED: f32 = 10.0;
-/// Evidence, as a logarithm, that a place in the middle shows the object, and one at the border does not.
+/// Evidence against the object, as a logarithm, half way up the sides of the frame.
 const CENTRE: f32 = 0.7;
 /// Parts of the object that are smaller than this share of its largest are none.
 const SMALL: f32 = 0.1;
+/// Half of the widest gap in an object's outline that is bridged, as a part of the frame's shorter side.
+const GAP: usize = 40;
 /// Shares of the frame that an object told from a background covers.
 const COVER: [f32; 2] = [0.003, 0.97];
 
@@ -65,7 +67,14 @@ impl Segmentation {
         let joints = joints(&features, &pairs, &texture);
         let seen = || seeds.iter().map(|&(cell, weight)| (features[cell], weight));
         let mut there = Densities::new(&bins, seen());
-        let mut here = Densities::even();
+        // What the middle of the frame shows is taken for the object at first, as far as the border does
+        // not show it too.
+        let central = |cell: usize| grid.centre(cell).map(|along| 1.0 - along * along);
+        let middle = features.iter().enumerate().map(|(cell, &features)| {
+            let [x, y] = central(cell);
+            (features, x * y)
+        });
+        let mut here = Densities::new(&bins, middle);
         let mut evidence = Vec::new();
         let mut likely = Vec::new();
         for _ in 0..ROUNDS {
@@ -91,11 +100,12 @@ impl Segmentation {
         }
         let inside = likely.iter().map(|&likely| likely > 0.5).collect();
         let mask = tidy(Mask::new(grid.width, grid.height, inside));
+        let mask = enclosed(mask, grid);
         let cover = mask.count() as f32 / grid.len() as f32;
         if cover < COVER[0] || cover > COVER[1] {
             return None;
         }
-        let certainty = agreement(&mask, &pairs, &evidence);
+        let certainty = agreement(&mask, grid, &pairs, &evidence);
         let segmentation = Self {
             grid,
             inside: mask.inside,
@@ -169,6 +179,19 @@ fn tidy(mask: Mask) -> Mask {
     mask.without_small_parts(SMALL).holes_filled()
 }
 
+/// With what lies within an outline that has gaps: the middle of an object may look as the
+/// background does. Bays and clefts stay open.
+fn enclosed(mask: Mask, grid: Grid) -> Mask {
+    let gap = grid.width.min(grid.height) / GAP;
+    let grown = around(grid, gap, |_, other| mask.inside[other]);
+    let grown = Mask::new(grid.width, grid.height, grown);
+    let filled = grown.holes_filled();
+    let within = |cell: usize| filled.inside[cell] && !grown.inside[cell];
+    let within = around(grid, gap, |_, other| within(other));
+    let both = mask.inside.iter().zip(within).map(|(&a, b)| a || b);
+    Mask::new(grid.width, grid.height, both.collect()).holes_filled()
+}
+
 /// `None` where there is no light.
 fn noise_floor(cells: &Cells) -> Option<f32> {
     let mut means: Vec<f32> = cells
@@ -195,7 +218,7 @@ fn border(grid: Grid) -> Vec<usize> {
 
 fn prior(grid: Grid, cell: usize) -> f32 {
     let [x, y] = grid.centre(cell);
-    CENTRE * (1.0 - 2.0 * (x * x + y * y)).max(-1.0)
+    -CENTRE * (x * x + y * y)
 }
 
 fn chance(evidence: f32) -> f32 {
@@ -229,9 +252,15 @@ fn joints(features: &[Features], pairs: &[[usize; 2]], texture: &Features) -> Ve
     pairs.iter().map(joint).collect()
 }
 
-/// Share of the outline on whose two sides the evidence agrees with the labels.
-fn agreement(mask: &Mask, pairs: &[[usize; 2]], evidence: &[f32]) -> f32 {
-    let (mut agreeing, mut all) = (0.0f32, 0.0f32);
+/// Share of the outline on whose two sides the evidence agrees with the labels. Where the frame cuts
+/// the object off nothing confirms the outline.
+fn agreement(mask: &Mask, grid: Grid, pairs: &[[usize; 2]], evidence: &[f32]) -> f32 {
+    let cut = (0..grid.len()).filter(|&cell| {
+        let (x, y) = (cell % grid.width, cell / grid.width);
+        let edge = x == 0 || y == 0 || x + 1 == grid.width || y + 1 == grid.height;
+        edge && mask.inside[cell]
+    });
+    let (mut agreeing, mut all) = (0.0f32, cut.count() as f32);
     for &[a, b] in pairs {
         let (a, b) = match (mask.inside[a], mask.inside[b]) {
             (true, false) => (a, b),

@@ -45,15 +45,6 @@ impl Series {
         }
     }
 
-    /// Less the mean over the images, which takes the colour away.
-    fn centred(mut self) -> Self {
-        for series in self.logs.chunks_exact_mut(self.images) {
-            let mean = series.iter().sum::<f32>() / series.len() as f32;
-            series.iter_mut().for_each(|value| *value -= mean);
-        }
-        self
-    }
-
     pub(super) fn of(&self, cell: usize) -> &[f32] {
         &self.logs[cell * self.images..(cell + 1) * self.images]
     }
@@ -69,33 +60,57 @@ impl Shading {
         }
     }
 
-    /// Least squares over some cells with the first `order` terms, those of the slope damped.
-    fn fit(series: &Series, chosen: &[usize], order: usize) -> Self {
-        let mut normal = [[0.0; TERMS]; TERMS];
+    /// As one cell shades, less its mean over the images, which is its colour.
+    fn constant(series: &[f32]) -> Self {
+        let mean = series.iter().sum::<f32>() / series.len() as f32;
+        let coefficients = series.iter().map(|&value| {
+            let mut terms = [0.0; TERMS];
+            terms[0] = f64::from(value - mean);
+            terms
+        });
+        Self {
+            coefficients: coefficients.collect(),
+        }
+    }
+
+    /// Least squares over some cells with the first `order` terms, those of the slope damped; images
+    /// in which a cell is further than `shadow` from what was found before do not count.
+    fn fit(&self, series: &Series, chosen: &[usize], order: usize, shadow: f32) -> Self {
+        let mut normal = vec![[[0.0; TERMS]; TERMS]; series.images];
         let mut right = vec![[0.0; TERMS]; series.images];
+        let mut rest = vec![0.0; series.images];
         for &cell in chosen {
-            let terms = terms(series.places[cell]);
-            for a in 0..order {
-                for b in 0..order {
-                    normal[a][b] += terms[a] * terms[b];
+            let place = series.places[cell];
+            let terms = terms(place);
+            rest.copy_from_slice(series.of(cell));
+            self.add_to(place, -1.0, &mut rest);
+            let middle = spread(&mut rest.clone()).1;
+            for (image, &value) in series.of(cell).iter().enumerate() {
+                if (rest[image] - middle).abs() > shadow {
+                    continue;
                 }
-                for (sums, &value) in right.iter_mut().zip(series.of(cell)) {
-                    sums[a] += terms[a] * f64::from(value);
+                for a in 0..order {
+                    for b in 0..order {
+                        normal[image][a][b] += terms[a] * terms[b];
+                    }
+                    right[image][a] += terms[a] * f64::from(value - middle);
                 }
             }
         }
-        for (term, row) in normal.iter_mut().enumerate() {
-            // Seen on one side of the frame only, a slope is hardly known.
-            row[term] += match term {
-                0 => 0.0,
-                _ => 0.01 * chosen.len() as f64,
-            };
-            if term >= order {
-                row[term] = 1.0;
+        let coefficients = normal.into_iter().zip(right).map(|(mut normal, sums)| {
+            for (term, row) in normal.iter_mut().enumerate() {
+                // Seen on one side of the frame only, a slope is hardly known.
+                row[term] += match term {
+                    0 => 1e-6,
+                    _ if term < order => 0.01 * chosen.len() as f64,
+                    _ => 1.0,
+                };
             }
+            solved(normal, sums)
+        });
+        Self {
+            coefficients: coefficients.collect(),
         }
-        let coefficients = right.into_iter().map(|sums| solved(normal, sums)).collect();
-        Self { coefficients }
     }
 
     fn inliers(&self, series: &Series, among: &[usize], tolerance: f32) -> Vec<usize> {
@@ -139,22 +154,28 @@ pub(super) fn spread(values: &mut [f32]) -> (f32, f32) {
 }
 
 /// The surfaces that a border shows, the most common one first, and which of its cells belong to one.
-pub(super) fn surfaces(border: Series) -> (Vec<Shading>, Vec<bool>) {
-    let border = border.centred();
+pub(super) fn surfaces(border: &Series) -> (Vec<Shading>, Vec<bool>) {
     let all = border.places.len();
     let mut left: Vec<usize> = (0..all).collect();
     let (mut found, mut explained) = (Vec::new(), vec![false; all]);
     while found.len() < SURFACES && !left.is_empty() {
-        let mut inliers = most_alike(&border, &left);
-        let mut shading = Shading::fit(&border, &inliers, 1);
-        for order in [1, 3, 3, TERMS, TERMS] {
+        let (mut shading, mut inliers) = most_alike(border, &left);
+        // From far to near: a near lamp's light changes more over the frame than a first fit knows.
+        let [near, far] = [(TOLERANCE[1], TOLERANCE[0]), (SHADOW, TOLERANCE[1])];
+        for (order, (shadow, tolerance)) in [
+            (1, far),
+            (3, far),
+            (TERMS, far),
+            (TERMS, near),
+            (TERMS, near),
+        ] {
             if inliers.len() < 2 * TERMS {
                 break;
             }
-            shading = Shading::fit(&border, &inliers, order);
-            inliers = shading.inliers(&border, &left, TOLERANCE[0]);
+            shading = shading.fit(border, &inliers, order, shadow);
+            inliers = shading.inliers(border, &left, tolerance);
         }
-        let wide = shading.inliers(&border, &left, TOLERANCE[1]);
+        let wide = shading.inliers(border, &left, TOLERANCE[1]);
         if !found.is_empty() && (wide.len() as f32) < SHARE * all as f32 {
             break;
         }
@@ -170,23 +191,17 @@ pub(super) fn surfaces(border: Series) -> (Vec<Shading>, Vec<bool>) {
     (found, explained)
 }
 
-/// The cells whose series are most like that of one of them.
-fn most_alike(series: &Series, among: &[usize]) -> Vec<usize> {
+/// The cell whose series most of the others are like, as a surface, and those others.
+fn most_alike(series: &Series, among: &[usize]) -> (Shading, Vec<usize>) {
     const TRIED: usize = 48;
-    let alike = |trial: usize| {
-        let mut rest = vec![0.0; series.images];
-        let fits = |&&cell: &&usize| {
-            let pairs = series.of(cell).iter().zip(series.of(trial));
-            for (value, (a, b)) in rest.iter_mut().zip(pairs) {
-                *value = a - b;
-            }
-            spread(&mut rest).0 < 2.0 * TOLERANCE[0]
-        };
-        among.iter().filter(fits).copied().collect::<Vec<usize>>()
-    };
     let trials = crate::evenly_spaced_indices(among.len(), TRIED);
-    let found = trials.into_iter().map(|index| alike(among[index]));
-    found.max_by_key(Vec::len).unwrap_or_default()
+    let found = trials.into_iter().map(|index| {
+        let shading = Shading::constant(series.of(among[index]));
+        let inliers = shading.inliers(series, among, TOLERANCE[1]);
+        (shading, inliers)
+    });
+    let most = found.max_by_key(|(_, inliers)| inliers.len());
+    most.unwrap_or_else(|| (Shading::constant(series.of(0)), Vec::new()))
 }
 
 fn terms([x, y]: [f32; 2]) -> [f64; TERMS] {
