@@ -62,7 +62,7 @@ pub use error::CoreError;
 pub use estimate::{Estimate, EstimateSettings};
 pub use glam::Vec3;
 pub use light::Light;
-pub use mask::{Mask, MaskSource};
+pub use mask::{Mask, MaskGuess, MaskSource};
 pub use mesh::{CornerNormals, MAX_TRIANGLES, TriangleMesh};
 pub use metrics::{
     NormalError, intensity_error, mean_light_error, normal_error, normal_error_between,

@@ -1,6 +1,8 @@
 mod guess;
 mod nearest;
 
+pub use guess::MaskGuess;
+
 use crate::Rect;
 
 /// Which pixels belong to the object.
@@ -91,13 +93,13 @@ impl Mask {
         })
     }
 
-    /// Only the largest part whose pixels touch side by side.
-    pub fn largest_component(&self) -> Self {
+    /// Without the parts that are smaller than a share of the largest.
+    fn without_small_parts(&self, share: f32) -> Self {
         let (labels, sizes) = self.components(true);
-        let largest = (1..sizes.len()).max_by_key(|&label| sizes[label]);
+        let largest = sizes[1..].iter().copied().max().unwrap_or(0);
         let inside = labels
             .iter()
-            .map(|&label| Some(label) == largest && label != 0)
+            .map(|&label| label != 0 && sizes[label as usize] as f32 >= share * largest as f32)
             .collect();
         Self::new(self.width, self.height, inside)
     }
@@ -109,18 +111,19 @@ impl Mask {
         for (index, &label) in labels.iter().enumerate() {
             let (x, y) = (index % self.width, index / self.width);
             if x == 0 || y == 0 || x + 1 == self.width || y + 1 == self.height {
-                open[label] = true;
+                open[label as usize] = true;
             }
         }
         let inside = labels
             .iter()
-            .map(|&label| label == 0 || !open[label])
+            .map(|&label| label == 0 || !open[label as usize])
             .collect();
         Self::new(self.width, self.height, inside)
     }
 
-    /// Labels the 4-connected parts whose flag is `value` from 1 upwards; other pixels get 0.
-    pub(crate) fn components(&self, value: bool) -> (Vec<usize>, Vec<usize>) {
+    /// Labels the 4-connected parts whose flag is `value` from 1 upwards, other pixels get 0; with
+    /// the size of each part.
+    pub(crate) fn components(&self, value: bool) -> (Vec<u32>, Vec<usize>) {
         let mut labels = vec![0; self.inside.len()];
         let mut sizes = vec![0];
         let mut stack = Vec::new();
@@ -128,12 +131,12 @@ impl Mask {
             if self.inside[start] != value || labels[start] != 0 {
                 continue;
             }
-            let label = sizes.len();
+            let label = sizes.len() as u32;
             sizes.push(0);
             labels[start] = label;
             stack.push(start);
             while let Some(index) = stack.pop() {
-                sizes[label] += 1;
+                sizes[label as usize] += 1;
                 let (x, y) = (index % self.width, index / self.width);
                 let neighbours = [
                     (x > 0).then(|| index - 1),
@@ -168,7 +171,7 @@ mod tests {
     #[test]
     fn largest_part_without_holes() {
         let found = mask(&["##....", "......", ".####.", ".#..#.", ".####.", ".....#"])
-            .largest_component()
+            .without_small_parts(1.0)
             .holes_filled();
         let expected = mask(&["......", "......", ".####.", ".####.", ".####.", "......"]);
         assert_eq!(found, expected);
@@ -182,6 +185,6 @@ mod tests {
             })
         );
         assert_eq!(mask(&["...", "..."]).bounding_box(), None);
-        assert_eq!(mask(&["...", "..."]).largest_component().count(), 0);
+        assert_eq!(mask(&["...", "..."]).without_small_parts(1.0).count(), 0);
     }
 }

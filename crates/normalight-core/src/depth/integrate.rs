@@ -85,7 +85,7 @@ fn centre_parts(mask: &Mask, heights: &mut [f32]) -> usize {
     let (labels, sizes) = mask.components(true);
     let mut means = vec![0.0f64; sizes.len()];
     for (&label, &height) in labels.iter().zip(&*heights) {
-        means[label] += f64::from(height);
+        means[label as usize] += f64::from(height);
     }
     for (mean, &size) in means.iter_mut().zip(&sizes) {
         *mean /= size.max(1) as f64;
@@ -93,7 +93,7 @@ fn centre_parts(mask: &Mask, heights: &mut [f32]) -> usize {
     for (&label, height) in labels.iter().zip(heights) {
         *height = match label {
             0 => 0.0,
-            label => (f64::from(*height) - means[label]) as f32,
+            label => (f64::from(*height) - means[label as usize]) as f32,
         };
     }
     sizes.len() - 1
