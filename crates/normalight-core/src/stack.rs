@@ -66,6 +66,11 @@ impl ImageStack {
         &self.images
     }
 
+    /// The images again, with what was said of them.
+    pub fn into_images(self) -> Vec<StackImage> {
+        self.images
+    }
+
     /// Says anew how the samples of one image relate to light.
     ///
     /// # Panics
