@@ -1,4 +1,5 @@
 mod image;
+mod light;
 
 pub use image::{Samples, StackImage};
 

@@ -67,7 +67,7 @@ mod native;
 pub use color::ColorMode;
 pub use decode::{DecodedImage, decode_image};
 pub use error::IoError;
-pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
+pub use input::{AmbientChoice, MaskChoice, NamedBytes, ReadOptions, StackInput};
 pub use input_plan::{
     ColorDecision, ColorReason, InputPlan, LeftOut, LeftOutReason, LightsDecision, Order,
 };

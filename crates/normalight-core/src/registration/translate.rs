@@ -1,5 +1,5 @@
 //! Shots laid where they belong.
-use crate::{Mask, Samples, StackImage, Transfer};
+use crate::{Mask, Samples, StackImage};
 
 /// Reach of the interpolation, in pixels.
 const REACH: i64 = 3;
@@ -11,16 +11,15 @@ pub fn translated(image: &StackImage, shift: [f32; 2]) -> StackImage {
     let mut moved = image.clone();
     match (&image.samples, &mut moved.samples) {
         (Samples::U8(from), Samples::U8(to)) => {
-            let light: Vec<f32> = (0..=255u8).map(|code| decoded(image, code, 255.0)).collect();
+            let light = image.light_of_codes(255);
             let decode = |code: u8| light[usize::from(code)];
-            let encode = |light: f32| (encoded(image, light) * 255.0).round() as u8;
+            let encode = |light: f32| (image.code_value(light) * 255.0).round() as u8;
             resample(image, shift, (from, decode), (to, encode));
         }
         (Samples::U16(from), Samples::U16(to)) => {
-            let codes = 0..=u16::MAX;
-            let light: Vec<f32> = codes.map(|code| decoded(image, code, 65_535.0)).collect();
+            let light = image.light_of_codes(65_535);
             let decode = |code: u16| light[usize::from(code)];
-            let encode = |light: f32| (encoded(image, light) * 65_535.0).round() as u16;
+            let encode = |light: f32| (image.code_value(light) * 65_535.0).round() as u16;
             resample(image, shift, (from, decode), (to, encode));
         }
         (Samples::F32(from), Samples::F32(to)) => {
@@ -29,18 +28,6 @@ pub fn translated(image: &StackImage, shift: [f32; 2]) -> StackImage {
         _ => unreachable!("a clone has the same samples"),
     }
     moved
-}
-
-fn decoded<T: Into<f32>>(image: &StackImage, code: T, full: f32) -> f32 {
-    image.transfer.decode(code.into() / full)
-}
-
-fn encoded(image: &StackImage, light: f32) -> f32 {
-    let light = light.clamp(0.0, 1.0);
-    match image.transfer {
-        Transfer::Linear => light,
-        transfer => transfer.encode(light).clamp(0.0, 1.0),
-    }
 }
 
 /// Takes out of a mask what a shot with this shift does not show.

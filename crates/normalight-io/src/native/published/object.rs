@@ -41,7 +41,7 @@ pub(super) fn read(images: &Path, entry: &PublishedEntry) -> Result<PublishedObj
     let options = ReadOptions {
         color: ColorMode::Linear,
         mask: MaskChoice::WholeFrame,
-        images: None,
+        ..ReadOptions::default()
     };
     let stack = assemble(&display(&list), &names, plan, &options, |index| {
         read_file(&folder.join(&listed[index].0), MAX_FILE_BYTES)
