@@ -1,4 +1,5 @@
 mod image;
+mod light;
 
 pub use image::{Samples, StackImage};
 
@@ -64,6 +65,11 @@ impl ImageStack {
     /// The images as decoded.
     pub fn images(&self) -> &[StackImage] {
         &self.images
+    }
+
+    /// The images again, with what was said of them.
+    pub fn into_images(self) -> Vec<StackImage> {
+        self.images
     }
 
     /// Says anew how the samples of one image relate to light.

@@ -5,8 +5,9 @@ use crate::format::{base_name, is_foreign, not_an_image};
 use crate::input::mask_label;
 use crate::input_plan::InputPlan;
 use crate::plan::{StackPlan, is_helper};
+use crate::shots::ambient::{Ambient, NamedAmbient};
 use crate::turn::turned;
-use crate::{IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
+use crate::{AmbientChoice, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
 use image::metadata::Orientation;
 use normalight_core::{
     ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, evenly_spaced_indices,
@@ -29,7 +30,7 @@ pub(crate) fn assemble(
     options: &ReadOptions,
     mut load: impl FnMut(usize) -> Result<Vec<u8>, IoError>,
 ) -> Result<StackInput, IoError> {
-    let picked = pick(place, names, &plan, options.images)?;
+    let mut picked = pick(place, names, &plan, options.images)?;
     let file_names = shown_names(names, &plan);
     let shots = read_shots(names, &plan, &picked, options, &mut load)?;
     let mut notices = plan.notices.clone();
@@ -84,9 +85,36 @@ pub(crate) fn assemble(
     if mask_source == MaskSource::Guessed && 10 * mask.count() > 9 * mask.inside().len() {
         notices.push(Notice::MaskGuessedWhole);
     }
-    // Benchmarks are what they are.
+    let named = match plan.ambient {
+        Some(index) => Some(NamedAmbient {
+            file: base_name(&names[index]).to_owned(),
+            bytes: match options.ambient {
+                AmbientChoice::Auto => load(index)?,
+                _ => Vec::new(),
+            },
+        }),
+        None => None,
+    };
+    let (mut mask, mut ambient, mut aligned) = (mask, Ambient::default(), None);
+    // Benchmarks are what they are, unless somebody asks.
+    if !plan.benchmark || options.ambient != AmbientChoice::LeaveOut {
+        ambient = shots::ambient::settle(
+            (&mut stack, &mask, &mut picked),
+            named,
+            (&options.ambient, options.color),
+            &mut notices,
+        )?;
+    }
     if !plan.benchmark {
         notices.extend(shots::check(&stack, &mask)?);
+    }
+    if !plan.benchmark || options.align {
+        aligned = shots::motion::settle(&mut stack, &mut mask, options.align, &mut notices)?;
+    }
+    let mut left_out = plan.left_out;
+    left_out.extend(ambient.left_out);
+    if let Some(file) = &ambient.subtracted {
+        left_out.retain(|left| base_name(&left.file) != file);
     }
     let plan = InputPlan {
         photographs: stack
@@ -95,10 +123,12 @@ pub(crate) fn assemble(
             .map(|image| image.name.clone())
             .collect(),
         order: plan.order,
-        left_out: plan.left_out,
+        left_out,
         mask: mask_label(&mask_source).to_owned(),
         color,
         lights: None,
+        ambient: ambient.subtracted,
+        aligned,
         notices,
     };
     Ok(StackInput {

@@ -147,6 +147,40 @@ pub enum IoError {
         /// The first photograph.
         first: String,
     },
+    /// All photographs show the same shading.
+    #[error(
+        "{first} and all others show the same shading (they differ by {:.2} % at most), expected another light in each: the lamp did not move",
+        difference * 100.0
+    )]
+    LampStill {
+        /// The first photograph.
+        first: String,
+        /// Largest mean difference of two shots of the same brightness, relative to their mean.
+        difference: f32,
+    },
+    /// The photographs show several things.
+    #[error(
+        "photographs of {} different objects found, expected one object under moving light: {groups}",
+        .count
+    )]
+    DifferentObjects {
+        /// Number of groups of photographs that have something in common.
+        count: usize,
+        /// The photographs of each group, in words.
+        groups: String,
+    },
+    /// The camera moved too far between the shots.
+    #[error(
+        "{files}: found up to {pixels:.1} pixels beside the other photographs, expected a fixed camera and object (here at most {limit:.1}); the align setting (--align) repairs shifts"
+    )]
+    CameraMoved {
+        /// The shots that lie elsewhere than most, in words.
+        files: String,
+        /// Largest shift in pixels.
+        pixels: f32,
+        /// Largest shift that is let pass, in pixels.
+        limit: f32,
+    },
     /// Fewer images were asked for than photometric stereo works with.
     #[error("{name}: {found} image(s) were asked for, at least {expected} are needed")]
     TooFewRequested {

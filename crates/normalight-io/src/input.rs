@@ -35,6 +35,29 @@ impl MaskChoice {
     }
 }
 
+/// What becomes of a picture without lamp, whose light is in all photographs.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum AmbientChoice {
+    /// One that is recognised is left out, and that is said.
+    #[default]
+    LeaveOut,
+    /// One that is recognised, by its name or by what it shows, is subtracted from all photographs.
+    Auto,
+    /// This one is subtracted; where it is among the photographs, it is none of them.
+    File(NamedBytes),
+}
+
+impl AmbientChoice {
+    /// The word of the command line, or the file's name.
+    pub fn label(&self) -> &str {
+        match self {
+            Self::LeaveOut => "none",
+            Self::Auto => "auto",
+            Self::File(file) => &file.name,
+        }
+    }
+}
+
 /// How a stack is read.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReadOptions {
@@ -46,6 +69,10 @@ pub struct ReadOptions {
     pub images: Option<usize>,
     /// How much is read at most.
     pub limits: Limits,
+    /// What becomes of a picture without lamp.
+    pub ambient: AmbientChoice,
+    /// Whether photographs that a moved camera took are laid over the others (shifts only).
+    pub align: bool,
 }
 
 /// A stack as read, ready for the pipeline.
@@ -60,7 +87,7 @@ pub struct StackInput {
     /// File names of all images found, read or not, in the order of the stack.
     pub file_names: Vec<String>,
     /// Position in `file_names` of each image of the stack: all of them unless
-    /// [`ReadOptions::images`] chose some.
+    /// [`ReadOptions::images`] chose some or one shows no lamp.
     pub picked: Vec<usize>,
     /// What was decided about the files, and what is doubtful.
     pub plan: InputPlan,

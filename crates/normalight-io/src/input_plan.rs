@@ -21,6 +21,10 @@ pub struct InputPlan {
     pub color: ColorDecision,
     /// How given lights were matched; `None` when there were none.
     pub lights: Option<LightsDecision>,
+    /// The picture without lamp that was subtracted.
+    pub ambient: Option<String>,
+    /// By how many pixels a photograph was moved at most, where that was asked for.
+    pub aligned: Option<f32>,
     /// What is doubtful.
     pub notices: Vec<Notice>,
 }
@@ -64,8 +68,10 @@ impl LeftOut {
 pub enum LeftOutReason {
     /// A mask, and not the one that is used.
     Mask,
-    /// A picture without lamp.
+    /// A picture without lamp, by its name.
     Ambient,
+    /// A picture without lamp, by what it shows.
+    ShowsNoLamp,
     /// A map: a result of this or another program.
     Map {
         /// The word in its name that says so.
@@ -100,6 +106,7 @@ impl fmt::Display for LeftOutReason {
         match self {
             Self::Mask => f.write_str("another mask"),
             Self::Ambient => f.write_str("without lamp, by its name"),
+            Self::ShowsNoLamp => f.write_str("without lamp, by what it shows"),
             Self::Map { word } => write!(f, "a map, by the word {word:?} in its name"),
             Self::NotListed => f.write_str("not in the list"),
             Self::OtherSize {
@@ -198,6 +205,14 @@ impl InputPlan {
         ];
         if let Some(LightsDecision { file, matched }) = &self.lights {
             lines.push(format!("lights: {file}, matched by {matched}"));
+        }
+        if let Some(file) = &self.ambient {
+            lines.push(format!("room light: that of {file}, subtracted"));
+        }
+        match self.aligned {
+            Some(0.0) => lines.push("aligned: no photograph had to be moved".to_owned()),
+            Some(most) => lines.push(format!("aligned: photographs moved by up to {most:.1} pixels")),
+            None => (),
         }
         lines.extend(left_out_lines(&self.left_out, all));
         lines.extend(notice_lines(&self.notices));

@@ -81,7 +81,7 @@ pub use depth_files::{
 };
 pub use derived_files::{DerivedFiles, DerivedReport, DerivedSettings, derived_files};
 pub use error::IoError;
-pub use input::{MaskChoice, NamedBytes, ReadOptions, StackInput};
+pub use input::{AmbientChoice, MaskChoice, NamedBytes, ReadOptions, StackInput};
 pub use input_plan::{
     ColorDecision, ColorReason, InputPlan, LeftOut, LeftOutReason, LightsDecision, Order,
     left_out_lines, notice_lines,

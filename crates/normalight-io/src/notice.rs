@@ -154,6 +154,47 @@ pub enum Notice {
         /// Largest share of saturated pixels, 0 to 1.
         share: f32,
     },
+    /// Much of the object is saturated over all shots.
+    Overexposed {
+        /// Share of saturated samples over the object and all shots, 0 to 1.
+        share: f32,
+    },
+    /// All shots show nearly the same shading.
+    LampHardlyMoved {
+        /// Largest mean difference of two shots of the same brightness, relative to their mean.
+        difference: f32,
+    },
+    /// A shot is brighter and flatter than all others.
+    RoomLit {
+        /// The shot.
+        file: String,
+    },
+    /// A picture without lamp was left out.
+    AmbientLeftOut {
+        /// The picture.
+        file: String,
+    },
+    /// A picture without lamp was to be subtracted, but none was recognised.
+    NoAmbient,
+    /// The picture without lamp is brighter than photographs with it.
+    AmbientBrighter {
+        /// The picture.
+        file: String,
+        /// Share of the object's pixels where that is so, 0 to 1.
+        share: f32,
+    },
+    /// The camera moved a little.
+    CameraMoved {
+        /// The shots that lie elsewhere than most.
+        files: Vec<String>,
+        /// Largest shift in pixels.
+        pixels: f32,
+    },
+    /// Shots that show nothing of what the others show.
+    Unlike {
+        /// The shots.
+        files: Vec<String>,
+    },
     /// A light file's first line says another number of lights than there are.
     LightsCountLine {
         /// The light file.
@@ -320,6 +361,42 @@ impl fmt::Display for Notice {
                 "{}: up to {:.0} % of the object are saturated; expose less",
                 some_names(files),
                 share * 100.0
+            ),
+            Self::Overexposed { share } => write!(
+                f,
+                "{:.0} % of the object are saturated over all photographs, where shading cannot be seen: expose less",
+                share * 100.0
+            ),
+            Self::LampHardlyMoved { difference } => write!(
+                f,
+                "all photographs show nearly the same shading (they differ by {:.1} % at most); did the lamp move?",
+                difference * 100.0
+            ),
+            Self::RoomLit { file } => write!(
+                f,
+                "{file}: brighter and flatter than all others; was another light on? Leave it out if so"
+            ),
+            Self::AmbientLeftOut { file } => write!(
+                f,
+                "{file}: shows the object without lamp and was left out; its light can be subtracted from all photographs with the ambient setting (--ambient auto)"
+            ),
+            Self::NoAmbient => f.write_str(
+                "no picture without lamp was recognised, by its name or by what it shows; nothing was subtracted",
+            ),
+            Self::AmbientBrighter { file, share } => write!(
+                f,
+                "{file}: brighter than the photographs on {:.0} % of the object, so it was taken with another exposure or another light; what was subtracted is wrong there",
+                share * 100.0
+            ),
+            Self::CameraMoved { files, pixels } => write!(
+                f,
+                "{}: lies up to {pixels:.1} pixels beside the other photographs, so the camera or the object moved; the align setting (--align) repairs it",
+                some_names(files)
+            ),
+            Self::Unlike { files } => write!(
+                f,
+                "{}: shows nothing of what the other photographs show; another object, out of focus, or moved far?",
+                some_names(files)
             ),
             Self::LightsCountLine { file, said, found } => write!(
                 f,

@@ -20,6 +20,8 @@ pub struct StackPlan {
     pub images: Vec<usize>,
     /// Position of the mask among the names.
     pub mask: Option<usize>,
+    /// Position of the picture without lamp among the names.
+    pub ambient: Option<usize>,
     /// What decided about images and order.
     pub order: Order,
     /// The other files that a person might miss, and why they are not among the images.
@@ -80,6 +82,9 @@ pub fn plan_stack<S: AsRef<str>>(
     if let Some(mask) = plan.mask {
         plan.left_out.retain(|left| left.file != name(mask));
     }
+    plan.ambient = candidates.iter().copied().find(|&index| {
+        !plan.images.contains(&index) && words.reason(name(index)) == Some(LeftOutReason::Ambient)
+    });
     for name in names.iter().map(AsRef::as_ref) {
         if let Some(reason) = left_out_reason(name) {
             plan.left_out.push(LeftOut::new(name, reason));
@@ -156,6 +161,7 @@ fn listed<S: AsRef<str>>(
         left_out: left_out.collect(),
         images,
         mask: masks.first().copied(),
+        ambient: None,
         order: Order::List(list.to_owned()),
         notices: notice.into_iter().collect(),
         benchmark: false,

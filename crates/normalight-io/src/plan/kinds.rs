@@ -6,7 +6,10 @@ use crate::names::{folded, stem};
 
 /// Words for masks and for pictures that are results or aids, anywhere in a name.
 const MASKS: &[&str] = &["mask", "silhouette"];
-const AMBIENT: &[&str] = &["ambient"];
+const AMBIENT: &[&str] = &[
+    "ambient", "noflash", "no_flash", "no-flash", "no flash", "nolight", "no_light", "no-light",
+    "no light", "nolamp", "no_lamp", "no-lamp", "no lamp",
+];
 const MAPS: &[&str] = &[
     "normal",
     "albedo",
@@ -25,6 +28,7 @@ const MAPS: &[&str] = &[
     "confidence",
 ];
 /// Words that stand in other words too: only alone, between signs or digits.
+const SHORT_AMBIENT: &[&str] = &["dark", "off", "unlit", "darkframe"];
 const SHORT_MAPS: &[&str] = &[
     "error",
     "height",
@@ -51,7 +55,7 @@ pub(super) struct Words {
 impl Words {
     pub(super) fn of<'a>(names: impl Iterator<Item = &'a str>) -> Self {
         let stems: Vec<String> = names.map(|name| folded(stem(name))).collect();
-        let all = [MASKS, AMBIENT, MAPS, SHORT_MAPS].into_iter().flatten();
+        let all = [MASKS, AMBIENT, SHORT_AMBIENT, MAPS, SHORT_MAPS].into_iter().flatten();
         let shared = all.copied().filter(|word| {
             let count = stems.iter().filter(|stem| has_word(stem, word)).count();
             // Among a few files a majority is soon reached by masks and maps.
@@ -76,7 +80,7 @@ impl Words {
         if has(MASKS).is_some() {
             return Some(LeftOutReason::Mask);
         }
-        if has(AMBIENT).is_some() {
+        if has(AMBIENT).or_else(|| has(SHORT_AMBIENT)).is_some() {
             return Some(LeftOutReason::Ambient);
         }
         let word = has(MAPS).or_else(|| has(SHORT_MAPS))?;
@@ -87,7 +91,7 @@ impl Words {
 }
 
 fn has_word(stem: &str, word: &str) -> bool {
-    if !SHORT_MAPS.contains(&word) {
+    if !SHORT_MAPS.contains(&word) && !SHORT_AMBIENT.contains(&word) {
         return stem.contains(word);
     }
     stem.split(|c: char| !c.is_alphabetic())

@@ -1,0 +1,224 @@
+//! Edges of some shots as whitened spectra, to be laid over each other.
+use super::edges::edges;
+use super::spectrum::{Transform, frequencies};
+use super::view::Picture;
+use rustfft::num_complex::Complex32;
+
+/// Width of the Gaussian that keeps the finest frequencies small, in pixels.
+const BLUR: f64 = 0.7;
+/// Spectra smaller than this hold nothing.
+const NOTHING: f32 = 1e-12;
+
+/// Share of clear edges below which a picture shows little but noise.
+const VAGUE: f32 = 0.01;
+/// Places between the pixels at which a fit is evaluated, along each axis, and the distance between
+/// them in pixels.
+const FINE: usize = 7;
+const SPACING: f32 = 0.125;
+
+/// Whitened spectra of the edges of shots of one size, each of unit energy or zero.
+pub(super) struct Spectra {
+    transform: Transform,
+    /// Largest shift that is looked for, in pixels.
+    range: usize,
+    spectra: Vec<Vec<Complex32>>,
+    /// Share of each shot's pixels that are clear edges.
+    clear: Vec<f32>,
+}
+
+/// How well one spectrum fits another over all shifts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Fit {
+    /// The best shift: right, down; in pixels, to a fraction.
+    pub(super) shift: [f32; 2],
+    /// How far the fit at the best shift stands out, in deviations of the fit over all shifts.
+    pub(super) best: f32,
+    /// The same without a shift.
+    pub(super) unmoved: f32,
+}
+
+impl Spectra {
+    pub(super) fn new(pictures: impl Iterator<Item = Picture>, size: [usize; 2]) -> Self {
+        let [width, height] = size;
+        let range = (width.min(height) / 6).max(4);
+        // The empty border keeps shifts within the range from meeting the other side.
+        let transform = Transform::at_least(width + range, height + range);
+        let (spectra, clear) = pictures
+            .map(|picture| {
+                let edges = edges(&picture);
+                let clear = edges.iter().filter(|edge| edge.norm_sqr() > 0.25).count();
+                let share = clear as f32 / edges.len() as f32;
+                (whitened(&transform, &edges, picture.width), share)
+            })
+            .unzip();
+        Self {
+            transform,
+            range,
+            spectra,
+            clear,
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.spectra.len()
+    }
+
+    /// Whether a shot has no edge at all.
+    pub(super) fn is_empty(&self, shot: usize) -> bool {
+        self.spectra[shot]
+            .iter()
+            .all(|value| *value == Complex32::ZERO)
+    }
+
+    /// Whether a shot has too few clear edges to say what it shows.
+    pub(super) fn is_vague(&self, shot: usize) -> bool {
+        self.clear[shot] < VAGUE
+    }
+
+    pub(super) fn zeros(&self) -> Vec<Complex32> {
+        vec![Complex32::ZERO; self.transform.len()]
+    }
+
+    pub(super) fn spectrum(&self, shot: usize) -> &[Complex32] {
+        &self.spectra[shot]
+    }
+
+    /// Adds `sign` times a shot, moved back by its shift, to a sum.
+    pub(super) fn add(&self, sum: &mut [Complex32], shot: usize, shift: [f32; 2], sign: f32) {
+        let height = self.transform.height;
+        let across = turn(self.transform.width, shift[0]);
+        let down = turn(height, shift[1]);
+        let lines = sum
+            .chunks_exact_mut(height)
+            .zip(self.spectra[shot].chunks_exact(height));
+        for ((sums, values), across) in lines.zip(across) {
+            let across = across * sign;
+            for ((sum, value), down) in sums.iter_mut().zip(values).zip(&down) {
+                *sum += value * across * down;
+            }
+        }
+    }
+
+    /// How a shot fits a sum of others (or one of them), without the shot itself.
+    pub(super) fn fit(&self, reference: &[Complex32], shot: usize) -> Fit {
+        let pairs = reference.iter().zip(&self.spectra[shot]);
+        let product: Vec<Complex32> = pairs.map(|(a, b)| a.conj() * b).collect();
+        let surface = self.transform.inverse(product.clone());
+        let count = surface.len() as f64;
+        let sum: f64 = surface.iter().map(|value| f64::from(value.re)).sum();
+        let squares: f64 = surface.iter().map(|v| f64::from(v.re).powi(2)).sum();
+        let deviation = (squares / count - (sum / count).powi(2)).max(0.0).sqrt() as f32;
+        if deviation <= NOTHING {
+            return Fit::default();
+        }
+        let (width, height) = (self.transform.width, self.transform.height);
+        let at = |x: i64, y: i64| {
+            let (x, y) = (x.rem_euclid(width as i64), y.rem_euclid(height as i64));
+            surface[y as usize * width + x as usize].re
+        };
+        let range = self.range as i64;
+        let (mut best, mut place) = (at(0, 0), (0, 0));
+        for y in -range..=range {
+            for x in -range..=range {
+                if at(x, y) > best {
+                    (best, place) = (at(x, y), (x, y));
+                }
+            }
+        }
+        let (x, y) = place;
+        let near = [
+            x as f32 + summit(at(x - 1, y), best, at(x + 1, y)),
+            y as f32 + summit(at(x, y - 1), best, at(x, y + 1)),
+        ];
+        Fit {
+            shift: self.refined(&product, near),
+            best: best / deviation,
+            unmoved: at(0, 0) / deviation,
+        }
+    }
+
+    /// The best shift near another, from the fit at places between the pixels (Guizar-Sicairos,
+    /// Thurman and Fienup 2008): a parabola through whole pixels alone is drawn to them.
+    fn refined(&self, product: &[Complex32], near: [f32; 2]) -> [f32; 2] {
+        let (width, height) = (self.transform.width, self.transform.height);
+        let offset = |place: usize| (place as f32 - (FINE / 2) as f32) * SPACING;
+        let turns = |axis: usize, length: usize| -> Vec<Vec<Complex32>> {
+            let places = (0..FINE).map(|place| turn(length, near[axis] + offset(place)));
+            places.collect()
+        };
+        let (across, down) = (turns(0, width), turns(1, height));
+        let mut fine = [[0.0f32; FINE]; FINE];
+        for (column, line) in product.chunks_exact(height).enumerate() {
+            for (row, down) in fine.iter_mut().zip(&down) {
+                let sum: Complex32 = line.iter().zip(down).map(|(a, b)| a * b).sum();
+                for (value, across) in row.iter_mut().zip(&across) {
+                    *value += (sum * across[column]).re;
+                }
+            }
+        }
+        let places = (0..FINE * FINE).map(|at| (at % FINE, at / FINE));
+        let highest = places.max_by(|a, b| fine[a.1][a.0].total_cmp(&fine[b.1][b.0]));
+        let (x, y) = highest.unwrap_or_default();
+        let along = |place: usize, at: &dyn Fn(usize) -> f32| match place {
+            0 => 0.0,
+            last if last == FINE - 1 => 0.0,
+            _ => summit(at(place - 1), at(place), at(place + 1)) * SPACING,
+        };
+        [
+            near[0] + offset(x) + along(x, &|x| fine[y][x]),
+            near[1] + offset(y) + along(y, &|y| fine[y][x]),
+        ]
+    }
+}
+
+/// The factors of a spectrum's entries along one axis that undo a shift.
+fn turn(length: usize, shift: f32) -> Vec<Complex32> {
+    let turns = frequencies(length).map(|frequency| {
+        let (sine, cosine) = libm::sincos(std::f64::consts::TAU * frequency * f64::from(shift));
+        Complex32::new(cosine as f32, sine as f32)
+    });
+    turns.collect()
+}
+
+/// Where the parabola through three neighbours is highest, from the middle one, -0.5 to 0.5.
+fn summit(before: f32, here: f32, after: f32) -> f32 {
+    let bend = before - 2.0 * here + after;
+    match bend < 0.0 {
+        true => (0.5 * (before - after) / bend).clamp(-0.5, 0.5),
+        false => 0.0,
+    }
+}
+
+/// The spectrum of edges with its amplitudes nearly levelled (to their power of 1/4: all
+/// of phase correlation's sharpness would be all of the noise, too), of unit energy.
+fn whitened(transform: &Transform, edges: &[Complex32], width: usize) -> Vec<Complex32> {
+    let mut field = vec![Complex32::ZERO; transform.len()];
+    let lines = field.chunks_exact_mut(transform.width);
+    for (line, row) in lines.zip(edges.chunks_exact(width)) {
+        line[..width].copy_from_slice(row);
+    }
+    let mut spectrum = transform.forward(field);
+    // Half of the Gaussian on each of the two spectra of a product.
+    let gauss = |frequency: f64| {
+        let exponent = (std::f64::consts::PI * BLUR * frequency).powi(2);
+        libm::exp(-exponent) as f32
+    };
+    let across: Vec<f32> = frequencies(transform.width).map(gauss).collect();
+    let down: Vec<f32> = frequencies(transform.height).map(gauss).collect();
+    let mut energy = 0.0;
+    for (line, across) in spectrum.chunks_exact_mut(transform.height).zip(across) {
+        for (value, down) in line.iter_mut().zip(&down) {
+            let root = value.norm().sqrt();
+            // Length to the power of 3/4.
+            let levelled = root * root.sqrt();
+            *value *= across * down / levelled.max(NOTHING);
+            energy += f64::from(value.norm_sqr());
+        }
+    }
+    if energy <= f64::from(NOTHING) {
+        return vec![Complex32::ZERO; transform.len()];
+    }
+    let scale = (1.0 / energy.sqrt()) as f32;
+    spectrum.iter_mut().for_each(|value| *value *= scale);
+    spectrum
+}

@@ -1,0 +1,115 @@
+//! Two-dimensional Fourier transforms of small complex fields.
+use rustfft::num_complex::Complex32;
+use rustfft::{Fft, FftPlanner};
+use std::sync::Arc;
+
+/// Transforms of one size. A spectrum lies transposed, `[width, height]`: nobody looks at its
+/// pixels, and it saves two turns.
+pub(super) struct Transform {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    along_rows: [Arc<dyn Fft<f32>>; 2],
+    along_columns: [Arc<dyn Fft<f32>>; 2],
+}
+
+impl Transform {
+    /// For fields of at least this size; the transform's own is a little larger, of small factors.
+    pub(super) fn at_least(width: usize, height: usize) -> Self {
+        let (width, height) = (quick_length(width), quick_length(height));
+        let mut planner = FftPlanner::new();
+        let mut both = |length| {
+            [
+                planner.plan_fft_forward(length),
+                planner.plan_fft_inverse(length),
+            ]
+        };
+        Self {
+            width,
+            height,
+            along_rows: both(width),
+            along_columns: both(height),
+        }
+    }
+
+    /// Number of values of a field and of its spectrum.
+    pub(super) fn len(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// Spectrum `[width, height]` of a field `[height, width]`.
+    pub(super) fn forward(&self, mut field: Vec<Complex32>) -> Vec<Complex32> {
+        self.along_rows[0].process(&mut field);
+        let mut spectrum = transposed(&field, self.width);
+        self.along_columns[0].process(&mut spectrum);
+        spectrum
+    }
+
+    /// Field `[height, width]` of a spectrum, without the factor of 1 / (width * height).
+    pub(super) fn inverse(&self, mut spectrum: Vec<Complex32>) -> Vec<Complex32> {
+        self.along_columns[1].process(&mut spectrum);
+        let mut field = transposed(&spectrum, self.height);
+        self.along_rows[1].process(&mut field);
+        field
+    }
+}
+
+fn transposed(field: &[Complex32], width: usize) -> Vec<Complex32> {
+    let height = field.len() / width;
+    let place = |index: usize| field[index % height * width + index / height];
+    (0..field.len()).map(place).collect()
+}
+
+/// The next even length whose factors are 2, 3 and 5.
+fn quick_length(least: usize) -> usize {
+    let quick = |&length: &usize| {
+        let mut rest = length;
+        for factor in [2, 3, 5] {
+            while rest.is_multiple_of(factor) {
+                rest /= factor;
+            }
+        }
+        rest == 1
+    };
+    let mut even = (least.max(2)..).filter(|length| length.is_multiple_of(2));
+    even.find(quick).unwrap_or(least)
+}
+
+/// Frequency of each entry of a transform of this length, in cycles per pixel, -0.5 to 0.5.
+pub(super) fn frequencies(length: usize) -> impl Iterator<Item = f64> {
+    (0..length).map(move |index| {
+        let signed = match 2 * index < length {
+            true => index as f64,
+            false => index as f64 - length as f64,
+        };
+        signed / length as f64
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_wave_is_one_entry_and_comes_back() {
+        let transform = Transform::at_least(11, 7);
+        assert_eq!((transform.width, transform.height), (12, 8));
+        // Two waves across, three down.
+        let wave = |index: usize| {
+            let (x, y) = ((index % 12) as f32, (index / 12) as f32);
+            let turn = std::f32::consts::TAU * (2.0 * x / 12.0 + 3.0 * y / 8.0);
+            Complex32::new(turn.cos(), turn.sin())
+        };
+        let field: Vec<Complex32> = (0..96).map(wave).collect();
+        let spectrum = transform.forward(field.clone());
+        for (index, value) in spectrum.iter().enumerate() {
+            let expected = if index == 2 * 8 + 3 { 96.0 } else { 0.0 };
+            assert!((value.norm() - expected).abs() < 1e-3, "{index}: {value}");
+        }
+        for (found, expected) in transform.inverse(spectrum).iter().zip(&field) {
+            assert!((found / 96.0 - expected).norm() < 1e-5);
+        }
+        let third = frequencies(12).nth(2).unwrap();
+        assert!((third - 2.0 / 12.0).abs() < 1e-12);
+        assert_eq!(frequencies(8).nth(6), Some(-0.25));
+    }
+}
