@@ -201,7 +201,7 @@ export interface LightsDecision {
 }
 
 /**
- * Where a mask came from: a file, transparency, a guess by brightness, or nowhere: the whole frame.
+ * Where a mask came from: a file, transparency, a guess from the photographs, or nowhere: the whole frame.
  */
 export type MaskOrigin = "file" | "alpha" | "guessed" | "none";
 

@@ -78,7 +78,10 @@ pub fn register_shots(stack: &ImageStack, mask: &Mask) -> Registration {
     let mut shifts: Vec<ShotShift> = fits.iter().map(|fit| shot_shift(fit, view.step)).collect();
     let exact = View::over(area, EXACT_SIDE);
     // From whole pixels to the next: what is left is measured best where it is small.
-    if shifts.iter().any(|shot| shot.pixels() > 0.5 * view.step as f32) {
+    if shifts
+        .iter()
+        .any(|shot| shot.pixels() > 0.5 * view.step as f32)
+    {
         let offsets: Vec<[i64; 2]> = shifts
             .iter()
             .map(|shot| shot.shift.map(|pixels| pixels.round() as i64))

@@ -71,18 +71,14 @@ impl ShotLight {
         let seen: Vec<usize> = (0..self.shots[shot].len())
             .filter(|&place| self.shots[shot][place] > 2.0 * NOISE * self.bright)
             .collect();
-        if count < 4
-            || self.means[shot] > 0.6 * usual
-            || 2 * seen.len() < self.shots[shot].len()
-        {
+        if count < 4 || self.means[shot] > 0.6 * usual || 2 * seen.len() < self.shots[shot].len() {
             return None;
         }
         let noise = NOISE * self.bright;
         let others = || (0..count).filter(|&other| other != shot);
         let darker = |other: usize| {
-            let here = |&&place: &&usize| {
-                self.shots[other][place] < 0.9 * self.shots[shot][place] - noise
-            };
+            let here =
+                |&&place: &&usize| self.shots[other][place] < 0.9 * self.shots[shot][place] - noise;
             seen.iter().filter(here).count() as f32 / seen.len() as f32
         };
         let as_bright = |&&place: &&usize| {

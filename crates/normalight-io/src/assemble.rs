@@ -7,11 +7,16 @@ use crate::input_plan::InputPlan;
 use crate::plan::{StackPlan, is_helper};
 use crate::shots::ambient::{Ambient, NamedAmbient};
 use crate::turn::turned;
-use crate::{AmbientChoice, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
+use crate::{
+    AmbientChoice, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots,
+};
 use image::metadata::Orientation;
 use normalight_core::{
-    ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, evenly_spaced_indices,
+    ImageStack, MIN_IMAGES, Mask, MaskGuess, MaskSource, Samples, StackImage, evenly_spaced_indices,
 };
+
+/// Share of a guessed mask's outline that the photographs agree with when nothing need be said.
+const SURE: f32 = 0.8;
 
 /// The decoded photographs and what was found out on the way.
 struct Shots {
@@ -55,8 +60,10 @@ pub(crate) fn assemble(
     };
     let unstated = shots.stated.iter().any(Option::is_none);
     let mut stack = ImageStack::new(images)?;
+    let mut guess = None;
     let (mask, mask_source) = match (given, shots.alpha) {
         (Some((name, file)), _) => {
+            let file = file.fitted(&name, &stack);
             notices.extend(file.notices);
             (file.mask, MaskSource::File(base_name(&name).to_owned()))
         }
@@ -66,9 +73,12 @@ pub(crate) fn assemble(
         }
         // Some programs write an alpha channel of zeros: that is no mask.
         (None, Some(mask)) if mask.count() > 0 => (mask, MaskSource::Alpha),
-        (None, _) => (Mask::guess(&stack), MaskSource::Guessed),
+        (None, _) => {
+            let found = guess.insert(Mask::guess(&stack));
+            (found.mask.clone(), MaskSource::Guessed)
+        }
     };
-    check_mask(&stack, &mask, &mask_source)?;
+    stack.check_mask(&mask, mask_label(&mask_source))?;
     let (color, doubts) = decision::decide(
         &mut stack,
         &mask,
@@ -77,14 +87,15 @@ pub(crate) fn assemble(
         options.color,
     );
     notices.extend(doubts);
-    // The guess sees light, not codes.
-    let mask = match mask_source == MaskSource::Guessed && unstated {
-        true => Mask::guess(&stack),
-        false => mask,
+    let mask = match guess {
+        None => mask,
+        Some(guess) => {
+            // It sees light, not codes.
+            let guess = if unstated { Mask::guess(&stack) } else { guess };
+            notices.extend(doubt_of(&guess));
+            guess.mask
+        }
     };
-    if mask_source == MaskSource::Guessed && 10 * mask.count() > 9 * mask.inside().len() {
-        notices.push(Notice::MaskGuessedWhole);
-    }
     let named = match plan.ambient {
         Some(index) => Some(NamedAmbient {
             file: base_name(&names[index]).to_owned(),
@@ -101,7 +112,7 @@ pub(crate) fn assemble(
         ambient = shots::ambient::settle(
             (&mut stack, &mask, &mut picked),
             named,
-            (&options.ambient, options.color),
+            options,
             &mut notices,
         )?;
     }
@@ -257,14 +268,13 @@ fn pick(
     }
 }
 
-fn check_mask(stack: &ImageStack, mask: &Mask, source: &MaskSource) -> Result<(), IoError> {
-    let name = mask_label(source);
-    let checked = stack.check_mask(mask, name);
-    // A guess finds nothing only where there is no light: say that instead.
-    if *source == MaskSource::Guessed && checked.is_err() {
-        stack.check_mask(&Mask::whole(stack.width(), stack.height()), name)?;
+/// What is doubtful about a mask that nobody gave.
+fn doubt_of(guess: &MaskGuess) -> Option<Notice> {
+    match guess.certainty {
+        _ if guess.is_whole_frame() => Some(Notice::MaskGuessedWhole),
+        certainty if certainty < SURE => Some(Notice::MaskGuessUnsure { certainty }),
+        _ => None,
     }
-    Ok(checked?)
 }
 
 fn sample_bytes(image: &StackImage) -> u64 {

@@ -211,7 +211,9 @@ impl InputPlan {
         }
         match self.aligned {
             Some(0.0) => lines.push("aligned: no photograph had to be moved".to_owned()),
-            Some(most) => lines.push(format!("aligned: photographs moved by up to {most:.1} pixels")),
+            Some(most) => lines.push(format!(
+                "aligned: photographs moved by up to {most:.1} pixels"
+            )),
             None => (),
         }
         lines.extend(left_out_lines(&self.left_out, all));

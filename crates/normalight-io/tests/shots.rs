@@ -154,7 +154,12 @@ fn a_moved_camera_is_said_and_repaired() {
     assert_eq!(notices(&repaired), []);
     let most = repaired.plan.aligned.unwrap();
     assert!((most - 61f32.sqrt()).abs() < 0.4, "{most}");
-    assert!(repaired.plan.to_string().contains("aligned: photographs moved by"));
+    assert!(
+        repaired
+            .plan
+            .to_string()
+            .contains("aligned: photographs moved by")
+    );
     for shot in [3, 5] {
         let wrong = off(&repaired, shot, lit(shot));
         assert!(wrong < 0.01, "{shot}: {wrong}");
@@ -198,14 +203,26 @@ fn a_lamp_that_stands_still_is_refused() {
         file(&format!("{quality}.jpg"), jpeg(quality, shot))
     });
     let error = read(again.to_vec()).unwrap_err();
-    assert!(matches!(&error, IoError::LampStill { difference, .. } if *difference < 0.015), "{error}");
+    assert!(
+        matches!(&error, IoError::LampStill { difference, .. } if *difference < 0.015),
+        "{error}"
+    );
 
     let found = notices(&read(eight(|index, shot| shot.turn = 0.012 * index as f32)).unwrap());
     assert!(
-        found.iter().any(|notice| matches!(notice, Notice::LampHardlyMoved { .. })),
+        found
+            .iter()
+            .any(|notice| matches!(notice, Notice::LampHardlyMoved { .. })),
         "{found:?}"
     );
-    let found = notices(&read(eight(|index, shot| if index == 6 { shot.turn = lit(2).turn })).unwrap());
+    let found = notices(
+        &read(eight(|index, shot| {
+            if index == 6 {
+                shot.turn = lit(2).turn
+            }
+        }))
+        .unwrap(),
+    );
     let expected = Notice::NearlyIdentical {
         files: vec!["6.png".into()],
     };
@@ -216,7 +233,9 @@ fn a_lamp_that_stands_still_is_refused() {
 fn light_where_it_should_not_be_is_said() {
     let found = notices(&read(eight(|_, shot| shot.light = [2.8, 0.08])).unwrap());
     assert!(
-        found.iter().any(|notice| matches!(notice, Notice::Overexposed { share } if *share > 0.2)),
+        found
+            .iter()
+            .any(|notice| matches!(notice, Notice::Overexposed { share } if *share > 0.2)),
         "{found:?}"
     );
     let room = eight(|index, shot| {
@@ -259,7 +278,12 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
         let expected = Notice::AmbientLeftOut { file: name.into() };
         assert_eq!(notices(&left), [expected]);
         let reasons = [LeftOutReason::Ambient, LeftOutReason::ShowsNoLamp];
-        assert!(left.plan.left_out.iter().any(|left| reasons.contains(&left.reason)));
+        assert!(
+            left.plan
+                .left_out
+                .iter()
+                .any(|left| reasons.contains(&left.reason))
+        );
         let taken = read_stack(files(), &auto).unwrap();
         assert_eq!((taken.stack.len(), taken.picked.len()), (8, 8));
         assert_eq!(taken.plan.ambient.as_deref(), Some(name));
@@ -274,7 +298,13 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
     assert_eq!(found, [Notice::NoAmbient]);
 
     let given = |light: f32| ReadOptions {
-        ambient: AmbientChoice::File(file("else/where.png", png(Shot { light: [0.0, light], ..dark }))),
+        ambient: AmbientChoice::File(file(
+            "else/where.png",
+            png(Shot {
+                light: [0.0, light],
+                ..dark
+            }),
+        )),
         ..ReadOptions::default()
     };
     let taken = read_stack(eight(with_room), &given(room)).unwrap();
@@ -282,7 +312,9 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
     assert!(off(&taken, 1, alone(1)) < 0.003);
     let found = notices(&read_stack(eight(with_room), &given(0.5)).unwrap());
     assert!(
-        found.iter().any(|notice| matches!(notice, Notice::AmbientBrighter { .. })),
+        found
+            .iter()
+            .any(|notice| matches!(notice, Notice::AmbientBrighter { .. })),
         "{found:?}"
     );
     let small = ReadOptions {

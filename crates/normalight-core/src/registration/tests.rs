@@ -106,7 +106,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
     #[test]
     fn some_moved_shots_are_found(
-        turn in 0.0f32..6.28,
+        turn in 0.0f32..std::f32::consts::TAU,
         pixels in 1.2f32..14.0,
         which in 0usize..9,
     ) {

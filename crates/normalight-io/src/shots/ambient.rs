@@ -2,7 +2,7 @@
 use crate::decode::decode_stored;
 use crate::input_plan::{LeftOut, LeftOutReason};
 use crate::turn::turned;
-use crate::{AmbientChoice, ColorMode, IoError, Notice};
+use crate::{AmbientChoice, IoError, Notice, ReadOptions};
 use normalight_core::{
     CoreError, ImageStack, MIN_IMAGES, Mask, ShotLight, StackImage, evenly_spaced_indices,
     luminance, without_ambient,
@@ -36,13 +36,13 @@ pub(crate) struct Ambient {
 pub(crate) fn settle(
     (stack, mask, picked): (&mut ImageStack, &Mask, &mut Vec<usize>),
     named: Option<NamedAmbient>,
-    (choice, color): (&AmbientChoice, ColorMode),
+    options: &ReadOptions,
     notices: &mut Vec<Notice>,
 ) -> Result<Ambient, IoError> {
-    let given = match (choice, named) {
-        (AmbientChoice::File(file), _) => Some(decoded(stack, &file.name, &file.bytes, color)?),
+    let given = match (&options.ambient, named) {
+        (AmbientChoice::File(file), _) => Some(decoded(stack, &file.name, &file.bytes, options)?),
         (AmbientChoice::Auto, Some(named)) => {
-            Some(decoded(stack, &named.file, &named.bytes, color)?)
+            Some(decoded(stack, &named.file, &named.bytes, options)?)
         }
         (AmbientChoice::LeaveOut, Some(named)) => {
             notices.push(Notice::AmbientLeftOut { file: named.file });
@@ -52,7 +52,9 @@ pub(crate) fn settle(
     };
     let found = match &given {
         // Given, but among the photographs as well.
-        Some(ambient) => (0..stack.len()).find(|&shot| stack.images()[shot].samples == ambient.samples),
+        Some(ambient) => {
+            (0..stack.len()).find(|&shot| stack.images()[shot].samples == ambient.samples)
+        }
         None => ShotLight::new(stack, mask).ambient(),
     };
     // Three shots are needed, whatever the fourth shows.
@@ -67,7 +69,7 @@ pub(crate) fn settle(
     let left_out = taken
         .as_ref()
         .map(|image| LeftOut::new(&image.name, LeftOutReason::ShowsNoLamp));
-    if *choice == AmbientChoice::LeaveOut {
+    if options.ambient == AmbientChoice::LeaveOut {
         if let Some(left) = &left_out {
             notices.push(Notice::AmbientLeftOut {
                 file: left.file.clone(),
@@ -102,9 +104,9 @@ fn decoded(
     stack: &ImageStack,
     name: &str,
     bytes: &[u8],
-    color: ColorMode,
+    options: &ReadOptions,
 ) -> Result<StackImage, IoError> {
-    let stored = decode_stored(name, bytes, color)?;
+    let stored = decode_stored(name, bytes, options.color, &options.limits)?;
     let first = &stack.images()[0];
     let fits = |image: &StackImage| (image.width, image.height) == (first.width, first.height);
     let mut image = turned(stored.image.clone(), stored.orientation);
@@ -154,7 +156,9 @@ fn brighter_share(stack: &ImageStack, mask: &Mask, ambient: &StackImage) -> Resu
     let mut darker = 0;
     for shot in 0..stack.len() {
         let pairs = light(stack, shot).into_iter().zip(&room);
-        darker += pairs.filter(|(light, room)| *light < 0.9 * **room - 0.004).count();
+        darker += pairs
+            .filter(|(light, room)| *light < 0.9 * **room - 0.004)
+            .count();
     }
     Ok(darker as f32 / (stack.len() * pixels.len()) as f32)
 }

@@ -40,7 +40,10 @@ pub(crate) fn settle(
     let found = register_shots(stack, mask);
     let names = |shots: &[usize]| -> Vec<String> {
         let images = stack.images();
-        shots.iter().map(|&shot| images[shot].name.clone()).collect()
+        shots
+            .iter()
+            .map(|&shot| images[shot].name.clone())
+            .collect()
     };
     check_groups(&found, &names, notices)?;
     if align {

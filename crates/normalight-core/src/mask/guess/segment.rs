@@ -102,7 +102,7 @@ impl Segmentation {
         let mask = tidy(Mask::new(grid.width, grid.height, inside));
         let mask = enclosed(mask, grid);
         let cover = mask.count() as f32 / grid.len() as f32;
-        if cover < COVER[0] || cover > COVER[1] {
+        if !(COVER[0]..=COVER[1]).contains(&cover) {
             return None;
         }
         let certainty = agreement(&mask, grid, &pairs, &evidence);

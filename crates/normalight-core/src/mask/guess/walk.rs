@@ -94,7 +94,7 @@ mod tests {
         let joints: Vec<Joint> = (0..10).map(joint).collect();
         let pull = |k: usize| Pull {
             target: if k == 0 { 1.0 } else { 0.0 },
-            weight: if k % 10 == 0 { 1e5 } else { 0.0 },
+            weight: if k.is_multiple_of(10) { 1e5 } else { 0.0 },
         };
         let pulls: Vec<Pull> = (0..11).map(pull).collect();
         for (k, found) in walk(&joints, &pulls).into_iter().enumerate() {
