@@ -66,6 +66,8 @@ export class Normalight {
           mask: mask === "none" ? "none" : "auto",
           images: options.images,
           lightAxes: options.lightAxes ?? "x-right,y-up,z-out",
+          align: options.align ?? false,
+          ambient: options.ambient ?? "none",
           normalFormat: options.normalFormat ?? "opengl",
           refit,
           quality,

@@ -89,6 +89,13 @@ export interface EstimateOptions {
    * `x-right,y-down,z-in`; `x-right,y-up,z-out` when left out.
    */
   readonly lightAxes?: string;
+  /** Lays photographs that a moved camera took over the others (shifts only), instead of refusing them. */
+  readonly align?: boolean;
+  /**
+   * A picture without lamp: `none` leaves it out, `auto` subtracts its light from all photographs, if one is recognised by
+   * its name or by what it shows.
+   */
+  readonly ambient?: "none" | "auto";
   /** Use only this many images, evenly spaced. */
   readonly images?: number;
   /** Which way green points in `normals.png` and the preview; `opengl` (up) when left out. */

@@ -90,6 +90,8 @@ export class Settings {
       mask: this.#mask.file ?? (wholeFrame ? "none" : "auto"),
       ...(lights ? { lights, lightAxes: chosen(this.#form, "light-axes") } : {}),
       ...(images === "all" ? {} : { images: Number(images) }),
+      ambient: chosen(this.#form, "ambient") as "none" | "auto",
+      align: chosen(this.#form, "align") === "yes",
       quality: chosen(this.#form, "quality") as Quality,
       normalFormat: chosen(this.#form, "normal-format") as "opengl" | "directx",
     };

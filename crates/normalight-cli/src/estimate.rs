@@ -9,8 +9,8 @@ use crate::{interrupt, outputs};
 use anyhow::{Context, Result, bail};
 use normalight_core::{CoreError, Light};
 use normalight_io::{
-    IoError, MaskChoice, OutputFolder, ReadOptions, RunDescription, StackInput, StageSeconds,
-    derived_files, read_named, read_paths, result_files,
+    AmbientChoice, IoError, MaskChoice, OutputFolder, ReadOptions, RunDescription, StackInput,
+    StageSeconds, derived_files, read_named, read_paths, result_files,
 };
 use normalight_model::{EstimateInput, ModelError};
 use std::path::{Path, PathBuf};
@@ -127,10 +127,17 @@ fn reading(args: &EstimateArgs) -> Result<ReadOptions> {
         Some(path) if path == Path::new("none") => MaskChoice::WholeFrame,
         Some(path) => MaskChoice::File(read_named(path)?),
     };
+    let ambient = match &args.ambient {
+        None => AmbientChoice::LeaveOut,
+        Some(path) if path == Path::new("auto") => AmbientChoice::Auto,
+        Some(path) => AmbientChoice::File(read_named(path)?),
+    };
     Ok(ReadOptions {
         color: args.color.into(),
         mask,
         images: args.images,
+        ambient,
+        align: args.align,
         ..ReadOptions::default()
     })
 }

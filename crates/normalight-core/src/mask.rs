@@ -93,8 +93,8 @@ impl Mask {
         })
     }
 
-    /// Without the parts that are smaller than a share of the largest.
-    fn without_small_parts(&self, share: f32) -> Self {
+    /// Without the parts (pixels that touch side by side) that are smaller than a share of the largest.
+    pub fn without_small_parts(&self, share: f32) -> Self {
         let (labels, sizes) = self.components(true);
         let largest = sizes[1..].iter().copied().max().unwrap_or(0);
         let inside = labels

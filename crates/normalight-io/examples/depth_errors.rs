@@ -138,7 +138,7 @@ impl View {
         let mut left = self.mask.clone();
         let mut errors = Vec::new();
         while left.count() > 0 {
-            let part = left.largest_component();
+            let part = left.without_small_parts(1.0);
             let pixels = part.pixels();
             let mut off: Vec<f32> = pixels
                 .iter()

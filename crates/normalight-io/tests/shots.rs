@@ -4,7 +4,8 @@ mod common;
 use common::{encode, file, mask_png};
 use image::{DynamicImage, GrayImage, ImageFormat};
 use normalight_io::{
-    AmbientChoice, IoError, LeftOutReason, NamedBytes, Notice, ReadOptions, StackInput, read_stack,
+    AmbientChoice, ColorMode, IoError, LeftOutReason, NamedBytes, Notice, ReadOptions, StackInput,
+    read_stack,
 };
 
 const WIDTH: u32 = 120;
@@ -85,8 +86,16 @@ fn eight(change: impl Fn(usize, &mut Shot)) -> Vec<NamedBytes> {
     shots.chain([file("mask.png", mask)]).collect()
 }
 
+/// The pictures are encoded, whatever their shading looks like.
+fn srgb() -> ReadOptions {
+    ReadOptions {
+        color: ColorMode::Srgb,
+        ..ReadOptions::default()
+    }
+}
+
 fn read(files: Vec<NamedBytes>) -> Result<StackInput, IoError> {
-    read_stack(files, &ReadOptions::default())
+    read_stack(files, &srgb())
 }
 
 /// Notices but that about the colour, which is not stated here.
@@ -148,7 +157,7 @@ fn a_moved_camera_is_said_and_repaired() {
 
     let options = ReadOptions {
         align: true,
-        ..ReadOptions::default()
+        ..srgb()
     };
     let repaired = read_stack(shift([6.0, -5.0]), &options).unwrap();
     assert_eq!(notices(&repaired), []);
@@ -264,7 +273,7 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
     };
     let auto = ReadOptions {
         ambient: AmbientChoice::Auto,
-        ..ReadOptions::default()
+        ..srgb()
     };
     // By its name, and by what it shows.
     for name in ["scene_off.png", "9.png"] {
@@ -305,12 +314,17 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
                 ..dark
             }),
         )),
-        ..ReadOptions::default()
+        ..srgb()
     };
     let taken = read_stack(eight(with_room), &given(room)).unwrap();
     assert_eq!(taken.plan.ambient.as_deref(), Some("where.png"));
     assert!(off(&taken, 1, alone(1)) < 0.003);
-    let found = notices(&read_stack(eight(with_room), &given(0.5)).unwrap());
+    let error = read_stack(eight(with_room), &given(0.5)).unwrap_err();
+    assert!(
+        matches!(&error, IoError::AmbientBrighter { name, share } if name == "where.png" && *share > 0.3),
+        "{error}"
+    );
+    let found = notices(&read_stack(eight(with_room), &given(0.19)).unwrap());
     assert!(
         found
             .iter()
@@ -319,7 +333,7 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
     );
     let small = ReadOptions {
         ambient: AmbientChoice::File(file("small.png", common::shaded_png(16, 12, 0))),
-        ..ReadOptions::default()
+        ..srgb()
     };
     let error = read_stack(eight(with_room), &small).unwrap_err();
     assert!(error.to_string().contains("small.png: 16x12"), "{error}");

@@ -2,7 +2,8 @@
 use crate::error::Failure;
 use normalight_core::RefitSettings;
 use normalight_io::{
-    ColorMode, LightAxes, LightAxesError, MaskChoice, NamedBytes, NormalFormat, ReadOptions,
+    AmbientChoice, ColorMode, LightAxes, LightAxesError, MaskChoice, NamedBytes, NormalFormat,
+    ReadOptions,
 };
 use normalight_model::{EstimateSettings, Quality};
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,10 @@ pub struct Settings {
     pub(crate) images: Option<usize>,
     /// Which way the axes of a light file point: `x-right,y-up,z-out` (ours), `x-right,y-down,z-in`, ...
     pub(crate) light_axes: String,
+    /// Lay photographs that a moved camera took over the others.
+    pub(crate) align: bool,
+    /// What becomes of a picture without lamp.
+    pub(crate) ambient: AmbientSetting,
     /// Which way green points in `normals.png` and the preview.
     pub(crate) normal_format: NormalFormat,
     /// Refit the lights to the normals, and the normals to them.
@@ -39,6 +44,17 @@ pub enum MaskSetting {
     None,
 }
 
+/// What becomes of a picture without lamp.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Tsify)]
+#[serde(rename_all = "lowercase")]
+pub enum AmbientSetting {
+    /// It is left out.
+    #[default]
+    None,
+    /// It is subtracted from all photographs.
+    Auto,
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -46,6 +62,8 @@ impl Default for Settings {
             mask: MaskSetting::default(),
             images: None,
             light_axes: LightAxes::default().to_string(),
+            align: false,
+            ambient: AmbientSetting::default(),
             normal_format: NormalFormat::default(),
             refit: true,
             quality: Quality::default(),
@@ -63,6 +81,11 @@ impl Settings {
                 (None, MaskSetting::None) => MaskChoice::WholeFrame,
             },
             images: self.images,
+            align: self.align,
+            ambient: match self.ambient {
+                AmbientSetting::None => AmbientChoice::LeaveOut,
+                AmbientSetting::Auto => AmbientChoice::Auto,
+            },
             ..ReadOptions::default()
         }
     }

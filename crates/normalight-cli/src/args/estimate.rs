@@ -45,6 +45,17 @@ pub(crate) struct EstimateArgs {
     /// Use only this many photographs, evenly spaced.
     #[arg(long, value_name = "N")]
     pub(crate) images: Option<usize>,
+    /// Lay photographs that a moved camera took over the others (shifts only), instead of refusing them.
+    ///
+    /// What such a photograph does not show leaves the mask.
+    #[arg(long)]
+    pub(crate) align: bool,
+    /// Subtract the light of a picture without lamp from all photographs: this one, or `auto` for the
+    /// one that is recognised by its name (ambient, noflash, off, dark) or by what it shows.
+    ///
+    /// Without it such a picture is left out.
+    #[arg(long, value_name = "FILE|auto")]
+    pub(crate) ambient: Option<PathBuf>,
     /// Which way green points in normals.png; normals.npy always has y up.
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "opengl")]
     pub(crate) normal_format: FormatChoice,
