@@ -126,9 +126,7 @@ fn check_count(entries: u64) -> Result<(), Fault> {
 /// Most bytes that an archive of this size may unpack to.
 fn unpacked_limit(packed: u64) -> u64 {
     let by_ratio = packed.saturating_mul(MAX_ARCHIVE_RATIO);
-    by_ratio
-        .max(ARCHIVE_BYTES_AT_ANY_RATIO)
-        .min(MAX_ARCHIVE_BYTES)
+    by_ratio.clamp(ARCHIVE_BYTES_AT_ANY_RATIO, MAX_ARCHIVE_BYTES)
 }
 
 impl Archive {
