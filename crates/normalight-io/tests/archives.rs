@@ -113,7 +113,7 @@ fn an_archive_gives_what_the_folder_gives() {
                 mask,
                 ..ReadOptions::default()
             };
-            let masked = read_paths(&[path.clone()], &options).unwrap();
+            let masked = read_paths(std::slice::from_ref(&path), &options).unwrap();
             assert_eq!(masked.mask.inside(), expected.mask.inside());
         }
     }
