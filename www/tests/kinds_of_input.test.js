@@ -40,7 +40,7 @@ async function pagePlan() {
 /** Files, and what must be said of them before and after the run. @type {[string, TestFile[], RegExp[], RegExp[]][]} */
 const cases = [
   [
-    "photographs of a phone beside PNGs are named",
+    "photographs of a phone beside PNG files are named",
     [...golden, heic],
     [/left out: IMG_0042\.heic \(HEIC/],
     [/^left out: IMG_0042\.heic \(HEIC/, /^mask: mask\.png/],
