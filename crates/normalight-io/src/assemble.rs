@@ -10,13 +10,17 @@ use crate::turn::turned;
 use crate::{ColorMode, IoError, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
 use image::metadata::Orientation;
 use normalight_core::{
-    ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, Transfer, evenly_spaced_indices,
+    ImageStack, MIN_IMAGES, Mask, MaskGuess, MaskSource, Samples, StackImage, Transfer,
+    evenly_spaced_indices,
 };
 
 /// How much better one reading must explain the photographs to be believed where nothing is said.
 const CLEAR: f32 = 1.25;
 /// ... and to be said where something else was taken.
 const CONTRADICTED: f32 = 2.0;
+
+/// Share of a guessed mask's outline that the photographs agree with when nothing need be said.
+const SURE: f32 = 0.8;
 
 /// The decoded photographs and what was found out on the way.
 struct Shots {
@@ -59,8 +63,10 @@ pub(crate) fn assemble(
     };
     let unstated = shots.stated.iter().any(Option::is_none);
     let mut stack = ImageStack::new(images)?;
+    let mut guess = None;
     let (mask, mask_source) = match (given, shots.alpha) {
         (Some((name, file)), _) => {
+            let file = file.fitted(&name, &stack);
             notices.extend(file.notices);
             (file.mask, MaskSource::File(base_name(&name).to_owned()))
         }
@@ -70,9 +76,12 @@ pub(crate) fn assemble(
         }
         // Some programs write an alpha channel of zeros: that is no mask.
         (None, Some(mask)) if mask.count() > 0 => (mask, MaskSource::Alpha),
-        (None, _) => (Mask::guess(&stack), MaskSource::Guessed),
+        (None, _) => {
+            let found = guess.insert(Mask::guess(&stack));
+            (found.mask.clone(), MaskSource::Guessed)
+        }
     };
-    check_mask(&stack, &mask, &mask_source)?;
+    stack.check_mask(&mask, mask_label(&mask_source))?;
     let color = decide_color(
         &mut stack,
         &mask,
@@ -81,14 +90,15 @@ pub(crate) fn assemble(
         options.color,
         &mut notices,
     );
-    // The guess sees light, not codes.
-    let mask = match mask_source == MaskSource::Guessed && unstated {
-        true => Mask::guess(&stack),
-        false => mask,
+    let mask = match guess {
+        None => mask,
+        Some(guess) => {
+            // It sees light, not codes.
+            let guess = if unstated { Mask::guess(&stack) } else { guess };
+            notices.extend(doubt_of(&guess));
+            guess.mask
+        }
     };
-    if mask_source == MaskSource::Guessed && 10 * mask.count() > 9 * mask.inside().len() {
-        notices.push(Notice::MaskGuessedWhole);
-    }
     // Benchmarks are what they are.
     if !plan.benchmark {
         notices.extend(shots::check(&stack, &mask)?);
@@ -303,14 +313,13 @@ fn pick(
     }
 }
 
-fn check_mask(stack: &ImageStack, mask: &Mask, source: &MaskSource) -> Result<(), IoError> {
-    let name = mask_label(source);
-    let checked = stack.check_mask(mask, name);
-    // A guess finds nothing only where there is no light: say that instead.
-    if *source == MaskSource::Guessed && checked.is_err() {
-        stack.check_mask(&Mask::whole(stack.width(), stack.height()), name)?;
+/// What is doubtful about a mask that nobody gave.
+fn doubt_of(guess: &MaskGuess) -> Option<Notice> {
+    match guess.certainty {
+        _ if guess.is_whole_frame() => Some(Notice::MaskGuessedWhole),
+        certainty if certainty < SURE => Some(Notice::MaskGuessUnsure { certainty }),
+        _ => None,
     }
-    Ok(checked?)
 }
 
 fn sample_bytes(image: &StackImage) -> u64 {

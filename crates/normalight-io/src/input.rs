@@ -91,7 +91,7 @@ pub(crate) fn mask_label(source: &MaskSource) -> &str {
     match source {
         MaskSource::File(name) => name,
         MaskSource::Alpha => "transparency of the first image",
-        MaskSource::Guessed => "guessed from brightness",
+        MaskSource::Guessed => "told from the photographs",
         MaskSource::WholeFrame => "whole frame",
     }
 }

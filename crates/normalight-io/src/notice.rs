@@ -72,6 +72,34 @@ pub enum Notice {
         /// By how much the other reading explains the photographs better, as a factor.
         factor: f32,
     },
+    /// The mask has several clear values or colours; all but one were taken as the object.
+    MaskLabels {
+        /// The mask.
+        file: String,
+        /// Number of values that are the object.
+        parts: usize,
+    },
+    /// Much of the mask is neither dark nor bright, as in a photograph.
+    MaskSoft {
+        /// The mask.
+        file: String,
+        /// Share of such pixels, 0 to 1.
+        share: f32,
+    },
+    /// The whole of the mask is inside.
+    MaskFull {
+        /// The mask.
+        file: String,
+    },
+    /// The mask has another size than the photographs and was scaled to theirs.
+    MaskScaled {
+        /// The mask.
+        file: String,
+        /// Its width and height in pixels.
+        from: [usize; 2],
+        /// Those of the photographs.
+        to: [usize; 2],
+    },
     /// The mask is the transparency of its file.
     MaskFromTransparency {
         /// The mask.
@@ -91,8 +119,13 @@ pub enum Notice {
         /// Value above which a pixel is inside.
         above: f32,
     },
-    /// The guessed mask is nearly the whole frame.
+    /// No object was told from a background: the whole frame was taken.
     MaskGuessedWhole,
+    /// The mask was told from the photographs, and part of its outline is doubtful.
+    MaskGuessUnsure {
+        /// Share of the outline that the photographs agree with, 0 to 1.
+        certainty: f32,
+    },
     /// Shots that are nearly the same picture.
     NearlyIdentical {
         /// The files.
@@ -211,9 +244,25 @@ impl fmt::Display for Notice {
                 f,
                 "the photographs were taken as {taken} but look {looks} (which explains them {factor:.1} times better); if so, say it with the colour setting"
             ),
+            Self::MaskLabels { file, parts } => write!(
+                f,
+                "{file}: holds {parts} parts beside the background, all taken as the object"
+            ),
+            Self::MaskSoft { file, share } => write!(
+                f,
+                "{file}: {:.0} % of it are neither dark nor bright, as in a photograph; inside is what is above the middle",
+                share * 100.0
+            ),
+            Self::MaskFull { file } => {
+                write!(f, "{file}: all of the frame is inside")
+            }
+            Self::MaskScaled { file, from: [width, height], to: [to_width, to_height] } => write!(
+                f,
+                "{file}: has {width}x{height} pixels, scaled to the {to_width}x{to_height} of the photographs"
+            ),
             Self::MaskFromTransparency { file } => write!(
                 f,
-                "{file}: all of one colour, so its transparency was taken as the mask"
+                "{file}: its colours show no mask, so its transparency was taken as one"
             ),
             Self::MaskInverted { file } => write!(
                 f,
@@ -224,7 +273,12 @@ impl fmt::Display for Notice {
                 "{file}: holds the values {values:.3?}; inside is what is above {above:.3}"
             ),
             Self::MaskGuessedWhole => f.write_str(
-                "no mask was found and the guess is nearly the whole frame: a mask would help, above all if the background is bright",
+                "no mask was found and no object could be told from a background, so the whole frame was taken; if there is a background, give a mask",
+            ),
+            Self::MaskGuessUnsure { certainty } => write!(
+                f,
+                "no mask was found; the object was told from its background by the photographs, which agree with {:.0} % of its outline: look at the mask, or give one",
+                certainty * 100.0
             ),
             Self::NearlyIdentical { files } => write!(
                 f,
