@@ -193,7 +193,7 @@ export interface LightsDecision {
 }
 
 /**
- * Where a mask came from: a file, transparency, a guess by brightness, or nowhere: the whole frame.
+ * Where a mask came from: a file, transparency, a guess from the photographs, or nowhere: the whole frame.
  */
 export type MaskOrigin = "file" | "alpha" | "guessed" | "none";
 
@@ -233,7 +233,7 @@ export type NormalFormat = "opengl" | "directx";
 /**
  * Something about the input that a person should know.
  */
-export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "odd-name"; file: string } | { kind: "several-pages"; file: string; pages: number } | { kind: "infinite"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string } | { kind: "color-unstated"; taken: string } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-as-angles"; file: string; unit: string };
+export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "odd-name"; file: string } | { kind: "several-pages"; file: string; pages: number } | { kind: "infinite"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string } | { kind: "color-unstated"; taken: string } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-as-angles"; file: string; unit: string };
 
 /**
  * What decided about the photographs and their order.

@@ -64,7 +64,7 @@ pub(crate) struct EstimateArgs {
     /// Image of the object's pixels (bright inside, dark outside), or `none` for the whole frame.
     ///
     /// Default: the image named mask beside the photographs, else the transparency of the first
-    /// one, else a guess from their brightness.
+    /// one, else the object as the photographs tell it from its background.
     #[arg(long, value_name = "FILE|none")]
     pub(crate) mask: Option<PathBuf>,
     /// Known lights: lines of `x y z` as in DiLiGenT's light_directions.txt, an .lp file, or our

@@ -217,7 +217,7 @@ fn masks_are_named_by_their_source() {
             .all(|&v| v == 255)
     );
     std::fs::rename(photographs.join("mask.png"), photographs.join("../m.png")).unwrap();
-    assert_eq!(mask_of(&[]), "guessed from brightness");
+    assert_eq!(mask_of(&[]), "told from the photographs");
     let file = photographs.join("../m.png");
     assert_eq!(mask_of(&["--mask", path(&file)]), "m.png");
 }

@@ -99,7 +99,7 @@ struct MaskReport {
     pixels: usize,
 }
 
-/// Where a mask came from: a file, transparency, a guess by brightness, or nowhere: the whole frame.
+/// Where a mask came from: a file, transparency, a guess from the photographs, or nowhere: the whole frame.
 #[derive(Debug, Serialize, Tsify)]
 #[serde(rename_all = "lowercase")]
 enum MaskOrigin {
