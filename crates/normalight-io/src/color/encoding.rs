@@ -31,6 +31,9 @@ const STEPS: usize = 4096;
 /// A display's own primaries are near enough to those of sRGB when no channel moves by more.
 const SAME_PRIMARIES: f64 = 0.02;
 
+/// Least area between three primaries; that of sRGB is 0.11.
+const LEAST_AREA: f32 = 1e-3;
+
 /// Adobe RGB (1998): its exponent is 563/256.
 const ADOBE_POWER: f32 = 2.199_218_8;
 
@@ -93,10 +96,10 @@ impl Encoding {
         }
         let rows = matrix.map(|matrix| matrix.v);
         if rows.iter().flatten().flatten().any(|v| !v.is_finite()) {
-            return Err("its primaries lie on a line".to_owned());
+            return Err("its primaries are impossible".to_owned());
         }
         let moved = |rows: &[[f64; 3]; 3]| {
-            let identity = |place: usize| f64::from(u8::from(place % 4 == 0));
+            let identity = |place: usize| f64::from(u8::from(place.is_multiple_of(4)));
             let apart = |place: usize| rows[place / 3][place % 3] - identity(place);
             (0..9).any(|place| apart(place).abs() > SAME_PRIMARIES)
         };
@@ -216,7 +219,16 @@ fn at(curve: Option<&[f32]>, value: f32) -> f32 {
 }
 
 /// The matrix from linear RGB of some primaries to that of sRGB, white to white (Bradford).
-pub(crate) fn to_srgb([red, green, blue, white]: Primaries) -> Matrix3d {
+///
+/// # Errors
+/// Primaries that span no colours, in words.
+pub(crate) fn to_srgb([red, green, blue, white]: Primaries) -> Result<Matrix3d, String> {
+    let [to_green, to_blue] = [green, blue].map(|[x, y]| [x - red[0], y - red[1]]);
+    let area = 0.5 * (to_green[0] * to_blue[1] - to_green[1] * to_blue[0]).abs();
+    // Not a number is no area either.
+    if area.is_nan() || area < LEAST_AREA {
+        return Err("its primaries lie on a line".to_owned());
+    }
     let point = |[x, y]: [f32; 2]| Chromaticity::new(x, y);
     let primaries = ColorPrimaries {
         red: point(red),
@@ -225,5 +237,5 @@ pub(crate) fn to_srgb([red, green, blue, white]: Primaries) -> Matrix3d {
     };
     let mut profile = ColorProfile::new_srgb();
     profile.update_rgb_colorimetry(point(white).to_xyyb(), primaries);
-    profile.transform_matrix(&ColorProfile::new_srgb())
+    Ok(profile.transform_matrix(&ColorProfile::new_srgb()))
 }

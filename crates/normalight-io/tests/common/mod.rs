@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 pub mod meshes;
 pub mod published;
+pub mod tagged;
 
 use image::{DynamicImage, ImageFormat};
 use normalight_core::Samples;

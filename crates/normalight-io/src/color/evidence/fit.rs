@@ -121,7 +121,7 @@ mod tests {
         };
         let row = |row: usize| -> Vec<Option<f64>> {
             (0..12)
-                .map(|column| ((5 * row + column) % 7 != 0).then(|| value(row, column)))
+                .map(|column| (!(5 * row + column).is_multiple_of(7)).then(|| value(row, column)))
                 .collect()
         };
         (0..200).map(row).collect()
