@@ -34,6 +34,9 @@ const LARGEST: f32 = 100.0;
 /// A display's own primaries are near enough to those of sRGB when no channel moves by more.
 const SAME_PRIMARIES: f64 = 0.02;
 
+/// Least area between three primaries; that of sRGB is 0.11.
+const LEAST_AREA: f32 = 1e-3;
+
 /// Adobe RGB (1998): its exponent is 563/256.
 const ADOBE_POWER: f32 = 2.199_218_8;
 
@@ -97,7 +100,7 @@ impl Encoding {
         let rows = matrix.map(|matrix| matrix.v);
         let mut factors = rows.iter().flatten().flatten();
         if !factors.all(|factor| factor.abs() <= f64::from(LARGEST)) {
-            return Err("its primaries are no colours".to_owned());
+            return Err("its primaries are impossible".to_owned());
         }
         let moved = |rows: &[[f64; 3]; 3]| {
             let identity = |place: usize| f64::from(u8::from(place.is_multiple_of(4)));
@@ -220,7 +223,16 @@ fn at(curve: Option<&[f32]>, value: f32) -> f32 {
 }
 
 /// The matrix from linear RGB of some primaries to that of sRGB, white to white (Bradford).
-pub(crate) fn to_srgb([red, green, blue, white]: Primaries) -> Matrix3d {
+///
+/// # Errors
+/// Primaries that span no colours, in words.
+pub(crate) fn to_srgb([red, green, blue, white]: Primaries) -> Result<Matrix3d, String> {
+    let [to_green, to_blue] = [green, blue].map(|[x, y]| [x - red[0], y - red[1]]);
+    let area = 0.5 * (to_green[0] * to_blue[1] - to_green[1] * to_blue[0]).abs();
+    // Not a number is no area either.
+    if area.is_nan() || area < LEAST_AREA {
+        return Err("its primaries lie on a line".to_owned());
+    }
     let point = |[x, y]: [f32; 2]| Chromaticity::new(x, y);
     let primaries = ColorPrimaries {
         red: point(red),
@@ -229,5 +241,5 @@ pub(crate) fn to_srgb([red, green, blue, white]: Primaries) -> Matrix3d {
     };
     let mut profile = ColorProfile::new_srgb();
     profile.update_rgb_colorimetry(point(white).to_xyyb(), primaries);
-    profile.transform_matrix(&ColorProfile::new_srgb())
+    Ok(profile.transform_matrix(&ColorProfile::new_srgb()))
 }

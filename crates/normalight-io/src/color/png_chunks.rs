@@ -58,9 +58,10 @@ fn of_gamma(info: &Info) -> Statement {
         None => name,
     };
     let matrix = info.chrm_chunk.map(|points| to_srgb(primaries(&points)));
-    let said = Encoding::statement(name.clone(), curves.clone(), matrix);
-    said.or_else(|_| Encoding::statement(name, curves, None))
-        .unwrap_or_default()
+    let alone = Encoding::statement(name.clone(), curves.clone(), None).unwrap_or_default();
+    let said = matrix.transpose();
+    said.and_then(|matrix| Encoding::statement(name, curves, matrix))
+        .unwrap_or_else(|reason| Statement::unknown(reason, alone))
 }
 
 fn primaries(points: &SourceChromaticities) -> [[f32; 2]; 4] {

@@ -106,7 +106,8 @@ fn statement(header: &Header) -> Statement {
     let points = [stated.red, stated.green, stated.blue, stated.white];
     let primaries: Primaries = points.map(|point| [point.0, point.1]);
     let name = "linear in its own primaries".to_owned();
-    Encoding::statement(name, Curves::Linear, Some(to_srgb(primaries)))
+    to_srgb(primaries)
+        .and_then(|matrix| Encoding::statement(name, Curves::Linear, Some(matrix)))
         .unwrap_or_else(|reason| Statement::unknown(reason, Statement::Linear))
 }
 

@@ -4,6 +4,7 @@
 pub mod archives;
 pub mod meshes;
 pub mod published;
+pub mod tagged;
 
 use image::{DynamicImage, ImageFormat};
 use normalight_core::Samples;
