@@ -140,7 +140,9 @@ impl View {
 
     fn pictures(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Vec<Picture> {
         let shots = offsets.iter().enumerate();
-        shots.map(|(shot, &offset)| self.of(stack, shot, offset)).collect()
+        shots
+            .map(|(shot, &offset)| self.of(stack, shot, offset))
+            .collect()
     }
 
     fn spectra(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Spectra {

@@ -33,7 +33,11 @@ pub(super) fn unexplained(pictures: &[Picture]) -> f32 {
 /// Unit energy; `None` of a black picture.
 fn normalised(picture: &Picture) -> Option<Vec<f32>> {
     let bright = super::edges::bright_value(&picture.light);
-    let light: Vec<f32> = picture.light.iter().map(|light| light.min(bright)).collect();
+    let light: Vec<f32> = picture
+        .light
+        .iter()
+        .map(|light| light.min(bright))
+        .collect();
     let energy: f32 = light.iter().map(|light| light * light).sum();
     (energy > 0.0).then(|| light.iter().map(|light| light / energy.sqrt()).collect())
 }
@@ -56,14 +60,22 @@ fn largest(matrix: &[Vec<f64>]) -> f64 {
             let axis = &mut rest[0];
             for other in before {
                 let along = dot(axis, other);
-                axis.iter_mut().zip(&*other).for_each(|(value, other)| *value -= along * other);
+                axis.iter_mut()
+                    .zip(&*other)
+                    .for_each(|(value, other)| *value -= along * other);
             }
             let length = dot(axis, axis).sqrt().max(1e-12);
             axis.iter_mut().for_each(|value| *value /= length);
         }
         sum = axes
             .iter()
-            .map(|axis| matrix.iter().zip(axis).map(|(row, at)| at * dot(row, axis)).sum::<f64>())
+            .map(|axis| {
+                matrix
+                    .iter()
+                    .zip(axis)
+                    .map(|(row, at)| at * dot(row, axis))
+                    .sum::<f64>()
+            })
             .sum();
     }
     sum
@@ -90,7 +102,9 @@ mod tests {
             light: (0..40)
                 .map(|x| {
                     let normal = |k: usize| 1.0 + ((x + shift) * (k + 3) % 11) as f32 / 11.0;
-                    (0..3).map(|k| normal(k) * ((index + 2 * k) % 5 + 1) as f32).sum()
+                    (0..3)
+                        .map(|k| normal(k) * ((index + 2 * k) % 5 + 1) as f32)
+                        .sum()
                 })
                 .collect(),
         };

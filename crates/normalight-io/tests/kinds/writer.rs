@@ -22,8 +22,8 @@ pub struct Tiff {
     pub planar: bool,
     /// Samples as differences to their left neighbours.
     pub differences: bool,
-    /// Runs of bytes, PackBits.
-    pub pack: bool,
+    /// Number of a compression, and what does it.
+    pub pack: Option<(u32, fn(&[u8]) -> Vec<u8>)>,
 }
 
 pub fn short(tag: u16, value: u32) -> Entry {
@@ -50,6 +50,14 @@ pub fn pack_bits(bytes: &[u8]) -> Vec<u8> {
         .collect()
 }
 
+/// Bytes as LZW, first bits first.
+pub fn pack_lzw(bytes: &[u8]) -> Vec<u8> {
+    let order = weezl::BitOrder::Msb;
+    weezl::encode::Encoder::with_tiff_size_switch(order, 8)
+        .encode(bytes)
+        .unwrap()
+}
+
 impl Tiff {
     pub fn new(width: u32, height: u32, depth: u16, channels: usize) -> Self {
         Self {
@@ -62,7 +70,7 @@ impl Tiff {
             tile: None,
             planar: false,
             differences: false,
-            pack: false,
+            pack: None,
         }
     }
 
@@ -102,7 +110,7 @@ impl Tiff {
                         self.line(&line, channels.len())
                     });
                     let lines: Vec<u8> = lines.collect();
-                    chunks.push(if self.pack { pack_bits(&lines) } else { lines });
+                    chunks.push(self.pack.map_or(lines.clone(), |(_, pack)| pack(&lines)));
                 }
             }
         }
@@ -111,7 +119,7 @@ impl Tiff {
         all.push(short(277, self.channels as u32));
         all.push(short(284, if self.planar { 2 } else { 1 }));
         all.push(short(317, if self.differences { 2 } else { 1 }));
-        all.push(short(259, if self.pack { 32_773 } else { 1 }));
+        all.push(short(259, self.pack.map_or(1, |(method, _)| method)));
         match self.tile {
             Some((wide, high)) => all.extend([short(322, wide), short(323, high)]),
             None => all.push(short(278, rows)),

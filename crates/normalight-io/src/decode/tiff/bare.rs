@@ -4,7 +4,7 @@
 //! differences and byte orders over the wrong number of channels: extra channels beside a predictor
 //! come out garbled, and so do extra channels in tiles of another byte order. What it is told here
 //! is always so many equal channels of grey in one plane; what they mean is decided by [`super::colors`]. The
-//! same way leads Zstandard and reversed bits past it, which it does not know.
+//! same way leads past it Zstandard and reversed bits, which it does not know, and LZW.
 use super::directory::{Directory, File};
 use super::layout::{Kind, Layout, Place, bytes};
 use super::tags::{self, compression};
@@ -22,7 +22,7 @@ pub(super) struct Bare<'a> {
 
 impl<'a> Bare<'a> {
     /// # Errors
-    /// Zstandard that is damaged or larger than its strip or tile.
+    /// Damaged LZW or Zstandard, or more of it than the limits grant.
     pub(super) fn new(
         source: &Source<'a>,
         page: &Directory<'a>,
@@ -33,7 +33,8 @@ impl<'a> Bare<'a> {
         let mut places = layout.places.clone();
         let mut method = layout.compression;
         let reversed = layout.reversed && method != compression::JPEG;
-        if method == compression::ZSTANDARD || reversed {
+        let ours = matches!(method, compression::ZSTANDARD | compression::LZW);
+        if ours || reversed {
             for (chunk, place) in places.iter_mut().enumerate() {
                 let stored = bytes(file.bytes, *place).unwrap_or_default();
                 let start = tail.len();
@@ -49,7 +50,7 @@ impl<'a> Bare<'a> {
                     length: (tail.len() - start) as u64,
                 };
             }
-            if method == compression::ZSTANDARD {
+            if ours {
                 method = compression::NONE;
             }
         }
@@ -111,7 +112,7 @@ impl Seek for Bare<'_> {
     }
 }
 
-/// Appends the content of a chunk, without Zstandard.
+/// Appends the content of a chunk, without LZW and Zstandard.
 fn unpack(
     source: &Source,
     layout: &Layout,
@@ -119,27 +120,56 @@ fn unpack(
     stored: &[u8],
     tail: &mut Vec<u8>,
 ) -> Result<(), IoError> {
-    if layout.compression != compression::ZSTANDARD {
-        tail.extend_from_slice(stored);
-        return Ok(());
-    }
-    let failed = |reason: String| {
-        source.damaged(format!(
-            "Zstandard of strip or tile {}: {reason}",
-            chunk + 1
-        ))
-    };
     let expected = layout.row_bytes() * layout.rows(chunk);
-    if tail.len() as u64 + expected > source.limits.decode_bytes() {
+    let start = tail.len();
+    if start as u64 + expected > source.limits.decode_bytes() {
         return Err(source.too_much_memory());
     }
+    let unpacked = match layout.compression {
+        compression::ZSTANDARD => unpack_zstandard(stored, expected, tail),
+        compression::LZW => unpack_lzw(stored, expected as usize, tail),
+        _ => {
+            tail.extend_from_slice(stored);
+            return Ok(());
+        }
+    };
+    let found = (tail.len() - start) as u64;
+    let reason = match unpacked {
+        Ok(()) if found == expected => return Ok(()),
+        Ok(()) => format!("{found} bytes instead of {expected}"),
+        Err(reason) => reason,
+    };
+    let name = compression::name(layout.compression);
+    Err(source.damaged(format!("{name} of strip or tile {}: {reason}", chunk + 1)))
+}
+
+fn unpack_zstandard(stored: &[u8], expected: u64, tail: &mut Vec<u8>) -> Result<(), String> {
     let decoder = ruzstd::decoding::StreamingDecoder::new(stored);
-    let decoder = decoder.map_err(|error| failed(error.to_string()))?;
+    let decoder = decoder.map_err(|error| error.to_string())?;
     let read = decoder.take(expected).read_to_end(tail);
-    match read.map_err(|error| failed(error.to_string()))? as u64 {
-        read if read < expected => Err(failed(format!("{read} bytes instead of {expected}"))),
-        _ => Ok(()),
+    read.map(|_| ()).map_err(|error| error.to_string())
+}
+
+/// The library fails on tiles whose last code ends within a row of padding.
+fn unpack_lzw(stored: &[u8], expected: usize, tail: &mut Vec<u8>) -> Result<(), String> {
+    let start = tail.len();
+    tail.resize(start + expected, 0);
+    let mut decoder = weezl::decode::Configuration::with_tiff_size_switch(weezl::BitOrder::Msb, 8)
+        .with_yield_on_full_buffer(true)
+        .build();
+    let (mut read, mut written) = (0, 0);
+    while written < expected {
+        let step = decoder.decode_bytes(&stored[read..], &mut tail[start + written..]);
+        read += step.consumed_in;
+        written += step.consumed_out;
+        match step.status {
+            Ok(weezl::LzwStatus::Ok) if step.consumed_in + step.consumed_out > 0 => {}
+            Ok(_) => break,
+            Err(error) => return Err(error.to_string()),
+        }
     }
+    tail.truncate(start + written);
+    Ok(())
 }
 
 /// What the decoder is told.

@@ -40,17 +40,20 @@ pub(super) const DNG_VERSION: u16 = 50_706;
 /// Values of [`COMPRESSION`].
 pub(super) mod compression {
     pub(in crate::decode::tiff) const NONE: u64 = 1;
+    pub(in crate::decode::tiff) const LZW: u64 = 5;
     pub(in crate::decode::tiff) const JPEG: u64 = 7;
     pub(in crate::decode::tiff) const ZSTANDARD: u64 = 50_000;
 
-    /// Those that the decoder of the library undoes: none, CCITT group 4, LZW, JPEG, Deflate under
-    /// both numbers, PackBits, WebP; and Zstandard.
+    /// Those that the decoder of the library undoes: none, CCITT group 4, JPEG, Deflate under
+    /// both numbers, PackBits, WebP; and those that are undone here.
     pub(in crate::decode::tiff) const READ: [u64; 9] =
-        [NONE, 4, 5, JPEG, 8, 32_946, 32_773, ZSTANDARD, 50_001];
+        [NONE, 4, LZW, JPEG, 8, 32_946, 32_773, ZSTANDARD, 50_001];
 
-    /// How people call one that is not read.
+    /// How people call one.
     pub(in crate::decode::tiff) fn name(compression: u64) -> String {
         let known = match compression {
+            LZW => "LZW",
+            ZSTANDARD => "Zstandard",
             2 => "CCITT Huffman",
             3 => "CCITT group 3",
             6 => "old JPEG (TIFF 6.0)",
