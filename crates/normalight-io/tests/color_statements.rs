@@ -1,5 +1,6 @@
 //! What files say of their colours: profiles, chunks and attributes that the tests write
 //! themselves, against the formulas of the standards.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 mod common;
 
 use common::tagged::{ADOBE, assert_light, decode, expected, gamma, picture, png, srgb};

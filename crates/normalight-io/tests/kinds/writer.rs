@@ -9,6 +9,9 @@ pub enum Order {
     Big,
 }
 
+/// What packs the bytes of a strip or tile.
+pub type Packing = fn(&[u8]) -> Vec<u8>;
+
 /// A picture of one page.
 pub struct Tiff {
     pub order: Order,
@@ -23,7 +26,7 @@ pub struct Tiff {
     /// Samples as differences to their left neighbours.
     pub differences: bool,
     /// Number of a compression, and what does it.
-    pub pack: Option<(u32, fn(&[u8]) -> Vec<u8>)>,
+    pub pack: Option<(u32, Packing)>,
 }
 
 pub fn short(tag: u16, value: u32) -> Entry {
