@@ -2,11 +2,13 @@
 //!
 //! Under a moving light pictures differ everywhere, so what is compared is where their edges are and
 //! along which line they run ([`edges`]), by phase correlation (Kuglin and Hines 1975), each shot
-//! against all others at once ([`joint`]). Pictures are small and of bounded size, so the time for a
-//! shot does not grow with its pixels.
+//! against all others at once ([`joint`]); and shots that are said to have moved must be shaded
+//! more like one surface with their shifts than without ([`shading`]). Pictures are small and of
+//! bounded size, so the time for a shot does not grow with its pixels.
 mod edges;
 mod groups;
 mod joint;
+mod shading;
 mod shots;
 mod spectrum;
 mod translate;
@@ -17,7 +19,7 @@ pub use translate::{keep_seen, translated};
 use crate::{ImageStack, Mask, Rect};
 use joint::place;
 use shots::{Fit, Spectra};
-use view::View;
+use view::{Picture, View};
 
 /// Longest side of the pictures in which shots are first laid over each other, and of those in
 /// which found shifts are made exact.
@@ -78,7 +80,10 @@ pub fn register_shots(stack: &ImageStack, mask: &Mask) -> Registration {
     let mut shifts: Vec<ShotShift> = fits.iter().map(|fit| shot_shift(fit, view.step)).collect();
     let exact = View::over(area, EXACT_SIDE);
     // From whole pixels to the next: what is left is measured best where it is small.
-    if shifts.iter().any(|shot| shot.pixels() > 0.5 * view.step as f32) {
+    if shifts
+        .iter()
+        .any(|shot| shot.pixels() > 0.5 * view.step as f32)
+    {
         let offsets: Vec<[i64; 2]> = shifts
             .iter()
             .map(|shot| shot.shift.map(|pixels| pixels.round() as i64))
@@ -90,6 +95,15 @@ pub fn register_shots(stack: &ImageStack, mask: &Mask) -> Registration {
             if rest.pixels() < 1.5 * view.step as f32 {
                 shot.shift = [0, 1].map(|axis| offset[axis] as f32 + rest.shift[axis]);
             }
+        }
+        let offsets: Vec<[i64; 2]> = shifts
+            .iter()
+            .map(|shot| shot.shift.map(|pixels| pixels.round() as i64))
+            .collect();
+        let look = |offsets: &[[i64; 2]]| shading::unexplained(&view.pictures(stack, offsets));
+        // The light moved, not the camera.
+        if look(&offsets) >= look(&unmoved) {
+            shifts.iter_mut().for_each(|shot| shot.certainty = 0.0);
         }
         let all: Vec<[f32; 2]> = shifts.iter().map(|shot| shot.shift).collect();
         let middle = joint::geometric_median(&all);
@@ -124,10 +138,16 @@ impl View {
         }
     }
 
-    fn spectra(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Spectra {
+    fn pictures(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Vec<Picture> {
         let shots = offsets.iter().enumerate();
-        let pictures = shots.map(|(shot, &offset)| self.of(stack, shot, offset));
-        Spectra::new(pictures, [self.width(), self.height()])
+        shots
+            .map(|(shot, &offset)| self.of(stack, shot, offset))
+            .collect()
+    }
+
+    fn spectra(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Spectra {
+        let pictures = self.pictures(stack, offsets);
+        Spectra::new(pictures.into_iter(), [self.width(), self.height()])
     }
 }
 

@@ -71,18 +71,15 @@ impl ShotLight {
         let seen: Vec<usize> = (0..self.shots[shot].len())
             .filter(|&place| self.shots[shot][place] > 2.0 * NOISE * self.bright)
             .collect();
-        if count < 4
-            || self.means[shot] > 0.6 * usual
-            || 2 * seen.len() < self.shots[shot].len()
-        {
+        // Of few shots the darkest is often like that by chance.
+        if count < 6 || self.means[shot] > 0.6 * usual || 2 * seen.len() < self.shots[shot].len() {
             return None;
         }
         let noise = NOISE * self.bright;
         let others = || (0..count).filter(|&other| other != shot);
         let darker = |other: usize| {
-            let here = |&&place: &&usize| {
-                self.shots[other][place] < 0.9 * self.shots[shot][place] - noise
-            };
+            let here =
+                |&&place: &&usize| self.shots[other][place] < 0.9 * self.shots[shot][place] - noise;
             seen.iter().filter(here).count() as f32 / seen.len() as f32
         };
         let as_bright = |&&place: &&usize| {
@@ -91,11 +88,12 @@ impl ShotLight {
         };
         let shadows = seen.iter().filter(as_bright).count() as f32 / seen.len() as f32;
         let nowhere = others().all(|other| darker(other) < 0.02);
-        (nowhere && shadows > 0.05).then_some(shot)
+        (nowhere && shadows > 0.15).then_some(shot)
     }
 
     /// A shot that is brighter than all others and in which nothing lies in shadow, though in all
-    /// others much does: the room's light was on.
+    /// others much does: the room's light was on, or a stronger lamp stood beside the camera, which
+    /// looks the same.
     pub fn room_lit(&self) -> Option<usize> {
         let count = self.shots.len();
         if count < 4 {

@@ -20,9 +20,16 @@ fn main() {
             .filter(moved)
             .map(|(k, shot)| format!("{k}:{:.2}/{:.1}", shot.pixels(), shot.certainty))
             .collect();
-        let most = found.shifts.iter().map(|shot| shot.pixels()).fold(0.0, f32::max);
+        let most = found
+            .shifts
+            .iter()
+            .map(|shot| shot.pixels())
+            .fold(0.0, f32::max);
         let groups: Vec<usize> = found.groups.iter().map(Vec::len).collect();
-        println!("{folder}: most {most:.2} moved [{}] groups {groups:?}", moved.join(" "));
+        println!(
+            "{folder}: most {most:.2} moved [{}] groups {groups:?}",
+            moved.join(" ")
+        );
         for notice in &input.plan.notices {
             println!("    {notice}");
         }

@@ -8,7 +8,10 @@ use crate::limits::MAX_STACK_BYTES;
 use crate::plan::{StackPlan, is_helper};
 use crate::shots::ambient::{Ambient, NamedAmbient};
 use crate::turn::turned;
-use crate::{AmbientChoice, ColorMode, IoError, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots};
+use crate::{
+    AmbientChoice, ColorMode, IoError, MaskChoice, Notice, ReadOptions, StackInput, mask_file,
+    shots,
+};
 use image::metadata::Orientation;
 use normalight_core::{
     ImageStack, MIN_IMAGES, Mask, MaskSource, Samples, StackImage, Transfer, evenly_spaced_indices,

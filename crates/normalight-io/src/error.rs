@@ -147,6 +147,17 @@ pub enum IoError {
         /// Largest shift that is let pass, in pixels.
         limit: f32,
     },
+    /// The picture without lamp is brighter than the photographs with it.
+    #[error(
+        "{name}: brighter than the photographs on {:.0} % of the object, expected the same room, exposure and camera without the lamp",
+        share * 100.0
+    )]
+    AmbientBrighter {
+        /// The picture.
+        name: String,
+        /// Share of the object over all photographs, 0 to 1.
+        share: f32,
+    },
     /// Fewer images were asked for than photometric stereo works with.
     #[error("{name}: {found} image(s) were asked for, at least {expected} are needed")]
     TooFewRequested {

@@ -11,7 +11,7 @@ const PIXELS: usize = 4000;
 /// Share of saturated pixels that is worth a word.
 const SATURATED: f32 = 0.2;
 /// Share of saturated samples over all shots that is.
-const OVEREXPOSED: f32 = 0.05;
+const OVEREXPOSED: f32 = 0.1;
 /// Two shots with less difference are nearly the same picture, whatever a JPEG made of them.
 const SAME: f32 = 0.01;
 /// Of the two most different shots of a stack: less, and the lamp stood still; less, and it hardly

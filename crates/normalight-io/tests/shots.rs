@@ -4,7 +4,8 @@ mod common;
 use common::{encode, file, mask_png};
 use image::{DynamicImage, GrayImage, ImageFormat};
 use normalight_io::{
-    AmbientChoice, IoError, LeftOutReason, NamedBytes, Notice, ReadOptions, StackInput, read_stack,
+    AmbientChoice, ColorMode, IoError, LeftOutReason, NamedBytes, Notice, ReadOptions, StackInput,
+    read_stack,
 };
 
 const WIDTH: u32 = 120;
@@ -85,8 +86,16 @@ fn eight(change: impl Fn(usize, &mut Shot)) -> Vec<NamedBytes> {
     shots.chain([file("mask.png", mask)]).collect()
 }
 
+/// The pictures are encoded, whatever their shading looks like.
+fn srgb() -> ReadOptions {
+    ReadOptions {
+        color: ColorMode::Srgb,
+        ..ReadOptions::default()
+    }
+}
+
 fn read(files: Vec<NamedBytes>) -> Result<StackInput, IoError> {
-    read_stack(files, &ReadOptions::default())
+    read_stack(files, &srgb())
 }
 
 /// Notices but that about the colour, which is not stated here.
@@ -148,13 +157,18 @@ fn a_moved_camera_is_said_and_repaired() {
 
     let options = ReadOptions {
         align: true,
-        ..ReadOptions::default()
+        ..srgb()
     };
     let repaired = read_stack(shift([6.0, -5.0]), &options).unwrap();
     assert_eq!(notices(&repaired), []);
     let most = repaired.plan.aligned.unwrap();
     assert!((most - 61f32.sqrt()).abs() < 0.4, "{most}");
-    assert!(repaired.plan.to_string().contains("aligned: photographs moved by"));
+    assert!(
+        repaired
+            .plan
+            .to_string()
+            .contains("aligned: photographs moved by")
+    );
     for shot in [3, 5] {
         let wrong = off(&repaired, shot, lit(shot));
         assert!(wrong < 0.01, "{shot}: {wrong}");
@@ -198,14 +212,26 @@ fn a_lamp_that_stands_still_is_refused() {
         file(&format!("{quality}.jpg"), jpeg(quality, shot))
     });
     let error = read(again.to_vec()).unwrap_err();
-    assert!(matches!(&error, IoError::LampStill { difference, .. } if *difference < 0.015), "{error}");
+    assert!(
+        matches!(&error, IoError::LampStill { difference, .. } if *difference < 0.015),
+        "{error}"
+    );
 
     let found = notices(&read(eight(|index, shot| shot.turn = 0.012 * index as f32)).unwrap());
     assert!(
-        found.iter().any(|notice| matches!(notice, Notice::LampHardlyMoved { .. })),
+        found
+            .iter()
+            .any(|notice| matches!(notice, Notice::LampHardlyMoved { .. })),
         "{found:?}"
     );
-    let found = notices(&read(eight(|index, shot| if index == 6 { shot.turn = lit(2).turn })).unwrap());
+    let found = notices(
+        &read(eight(|index, shot| {
+            if index == 6 {
+                shot.turn = lit(2).turn
+            }
+        }))
+        .unwrap(),
+    );
     let expected = Notice::NearlyIdentical {
         files: vec!["6.png".into()],
     };
@@ -216,7 +242,9 @@ fn a_lamp_that_stands_still_is_refused() {
 fn light_where_it_should_not_be_is_said() {
     let found = notices(&read(eight(|_, shot| shot.light = [2.8, 0.08])).unwrap());
     assert!(
-        found.iter().any(|notice| matches!(notice, Notice::Overexposed { share } if *share > 0.2)),
+        found
+            .iter()
+            .any(|notice| matches!(notice, Notice::Overexposed { share } if *share > 0.2)),
         "{found:?}"
     );
     let room = eight(|index, shot| {
@@ -245,7 +273,7 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
     };
     let auto = ReadOptions {
         ambient: AmbientChoice::Auto,
-        ..ReadOptions::default()
+        ..srgb()
     };
     // By its name, and by what it shows.
     for name in ["scene_off.png", "9.png"] {
@@ -259,7 +287,12 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
         let expected = Notice::AmbientLeftOut { file: name.into() };
         assert_eq!(notices(&left), [expected]);
         let reasons = [LeftOutReason::Ambient, LeftOutReason::ShowsNoLamp];
-        assert!(left.plan.left_out.iter().any(|left| reasons.contains(&left.reason)));
+        assert!(
+            left.plan
+                .left_out
+                .iter()
+                .any(|left| reasons.contains(&left.reason))
+        );
         let taken = read_stack(files(), &auto).unwrap();
         assert_eq!((taken.stack.len(), taken.picked.len()), (8, 8));
         assert_eq!(taken.plan.ambient.as_deref(), Some(name));
@@ -274,20 +307,33 @@ fn a_picture_without_lamp_is_left_out_or_subtracted() {
     assert_eq!(found, [Notice::NoAmbient]);
 
     let given = |light: f32| ReadOptions {
-        ambient: AmbientChoice::File(file("else/where.png", png(Shot { light: [0.0, light], ..dark }))),
-        ..ReadOptions::default()
+        ambient: AmbientChoice::File(file(
+            "else/where.png",
+            png(Shot {
+                light: [0.0, light],
+                ..dark
+            }),
+        )),
+        ..srgb()
     };
     let taken = read_stack(eight(with_room), &given(room)).unwrap();
     assert_eq!(taken.plan.ambient.as_deref(), Some("where.png"));
     assert!(off(&taken, 1, alone(1)) < 0.003);
-    let found = notices(&read_stack(eight(with_room), &given(0.5)).unwrap());
+    let error = read_stack(eight(with_room), &given(0.5)).unwrap_err();
     assert!(
-        found.iter().any(|notice| matches!(notice, Notice::AmbientBrighter { .. })),
+        matches!(&error, IoError::AmbientBrighter { name, share } if name == "where.png" && *share > 0.3),
+        "{error}"
+    );
+    let found = notices(&read_stack(eight(with_room), &given(0.19)).unwrap());
+    assert!(
+        found
+            .iter()
+            .any(|notice| matches!(notice, Notice::AmbientBrighter { .. })),
         "{found:?}"
     );
     let small = ReadOptions {
         ambient: AmbientChoice::File(file("small.png", common::shaded_png(16, 12, 0))),
-        ..ReadOptions::default()
+        ..srgb()
     };
     let error = read_stack(eight(with_room), &small).unwrap_err();
     assert!(error.to_string().contains("small.png: 16x12"), "{error}");

@@ -42,7 +42,7 @@ pub(super) fn edges(picture: &Picture) -> Vec<Complex32> {
 }
 
 /// The value that one in a hundred exceeds.
-fn bright_value(values: &[f32]) -> f32 {
+pub(super) fn bright_value(values: &[f32]) -> f32 {
     let mut values = values.to_vec();
     let place = (values.len() * 99 / 100).min(values.len() - 1);
     *values.select_nth_unstable_by(place, f32::total_cmp).1

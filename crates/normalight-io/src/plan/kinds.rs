@@ -54,7 +54,9 @@ pub(super) struct Words {
 impl Words {
     pub(super) fn of<'a>(names: impl Iterator<Item = &'a str>) -> Self {
         let stems: Vec<String> = names.map(|name| folded(stem(name))).collect();
-        let all = [MASKS, AMBIENT, SHORT_AMBIENT, MAPS, SHORT_MAPS].into_iter().flatten();
+        let all = [MASKS, AMBIENT, SHORT_AMBIENT, MAPS, SHORT_MAPS]
+            .into_iter()
+            .flatten();
         let shared = all.copied().filter(|word| {
             let count = stems.iter().filter(|stem| has_word(stem, word)).count();
             // Among a few files a majority is soon reached by masks and maps.

@@ -8,8 +8,10 @@ use normalight_core::{
     luminance, without_ambient,
 };
 
-/// Share of the object on which a picture without lamp may be brighter than photographs with it.
+/// Share of the object on which a picture without lamp may be brighter than photographs with it:
+/// without a word, and at all.
 const BRIGHTER: f32 = 0.05;
+const TOO_BRIGHT: f32 = 0.3;
 
 /// A picture without lamp that lies among the files, by its name.
 pub(crate) struct NamedAmbient {
@@ -32,7 +34,7 @@ pub(crate) struct Ambient {
 /// shot that is left out.
 ///
 /// # Errors
-/// The picture cannot be decoded or has another size than the photographs.
+/// The picture cannot be decoded, has another size than the photographs, or is brighter.
 pub(crate) fn settle(
     (stack, mask, picked): (&mut ImageStack, &Mask, &mut Vec<usize>),
     named: Option<NamedAmbient>,
@@ -52,7 +54,9 @@ pub(crate) fn settle(
     };
     let found = match &given {
         // Given, but among the photographs as well.
-        Some(ambient) => (0..stack.len()).find(|&shot| stack.images()[shot].samples == ambient.samples),
+        Some(ambient) => {
+            (0..stack.len()).find(|&shot| stack.images()[shot].samples == ambient.samples)
+        }
         None => ShotLight::new(stack, mask).ambient(),
     };
     // Three shots are needed, whatever the fourth shows.
@@ -83,6 +87,12 @@ pub(crate) fn settle(
         return Ok(Ambient::default());
     };
     let share = brighter_share(stack, mask, &ambient)?;
+    if share > TOO_BRIGHT {
+        return Err(IoError::AmbientBrighter {
+            name: ambient.name,
+            share,
+        });
+    }
     if share > BRIGHTER {
         notices.push(Notice::AmbientBrighter {
             file: ambient.name.clone(),
@@ -154,7 +164,9 @@ fn brighter_share(stack: &ImageStack, mask: &Mask, ambient: &StackImage) -> Resu
     let mut darker = 0;
     for shot in 0..stack.len() {
         let pairs = light(stack, shot).into_iter().zip(&room);
-        darker += pairs.filter(|(light, room)| *light < 0.9 * **room - 0.004).count();
+        darker += pairs
+            .filter(|(light, room)| *light < 0.9 * **room - 0.004)
+            .count();
     }
     Ok(darker as f32 / (stack.len() * pixels.len()) as f32)
 }

@@ -4,7 +4,7 @@ use crate::{IoError, Notice};
 use normalight_core::{ImageStack, Mask, Registration, keep_seen, register_shots, translated};
 
 /// Smallest shorter side of the object, in pixels, where anything can be said.
-const SMALLEST: usize = 48;
+const SMALLEST: usize = 24;
 /// Certainty from which a shift is said, and from which it is repaired where that was asked for:
 /// then a wrong one of less than a pixel does no harm.
 const SURE: f32 = 8.0;
@@ -40,7 +40,10 @@ pub(crate) fn settle(
     let found = register_shots(stack, mask);
     let names = |shots: &[usize]| -> Vec<String> {
         let images = stack.images();
-        shots.iter().map(|&shot| images[shot].name.clone()).collect()
+        shots
+            .iter()
+            .map(|&shot| images[shot].name.clone())
+            .collect()
     };
     check_groups(&found, &names, notices)?;
     if align {
