@@ -130,6 +130,20 @@ impl ShotLight {
         quantile(shares.clone(), 0.1) / quantile(shares, 0.5).max(NOISE)
     }
 
+    /// Share of the object that is lit in the middle one of the shots: brighter than a twentieth of
+    /// its brightest places.
+    ///
+    /// Below 0.03 little but highlights is seen, as on mirror balls: measured there 0.004 to 0.034, on
+    /// other rendered and photographed objects 0.06 and more, mostly above 0.4.
+    pub fn lit_share(&self) -> f32 {
+        let shares = self.shots.iter().map(|shot| {
+            let bright = quantile(shot.clone(), 0.999);
+            let lit = shot.iter().filter(|light| **light > 0.05 * bright).count();
+            lit as f32 / shot.len() as f32
+        });
+        quantile(shares.collect(), 0.5)
+    }
+
     /// How much two shots of the same brightness differ: the mean difference relative to the mean.
     pub fn difference(&self, a: usize, b: usize) -> f32 {
         let scale = |shot: usize| 1.0 / self.means[shot].max(1e-9);

@@ -1,13 +1,15 @@
 //! A camera that moved, and photographs of other things.
 use crate::notice::some_names;
 use crate::{IoError, Notice};
-use normalight_core::{ImageStack, Mask, Registration, keep_seen, register_shots, translated};
+use normalight_core::{
+    ImageStack, Mask, Registration, ShotLight, keep_seen, register_shots, translated,
+};
 
 /// Smallest shorter side of the object, in pixels, where anything can be said.
-const SMALLEST: usize = 24;
+const SMALLEST: usize = 20;
 /// Certainty from which a shift is refused, said, and repaired where that was asked for. Measured on
 /// rendered and photographed stacks: a still camera, of any object, at most 7 with 12 lights and more
-/// (13 with five, 22 on a mirror ball on black, of which nothing but the highlight is seen); shifts of
+/// (13 with five); shifts of
 /// a hundredth of the object 9 to 36, of a fiftieth 16 to 80, larger ones up to 100.
 const SURE: f32 = 24.0;
 const LIKELY: f32 = 9.0;
@@ -17,6 +19,8 @@ const REPAIRED_FROM: f32 = 4.0;
 const SAID: (f32, f32) = (0.7, 1.0 / 500.0);
 /// Shifts that are refused. There 2 pixels cost 1 to 4 degrees, 4 pixels 2 to 12, 8 pixels up to 20.
 const REFUSED: (f32, f32) = (2.5, 1.0 / 80.0);
+/// Objects less lit than this show highlights alone, which wander as nothing but the object should.
+const MIRROR: f32 = 0.03;
 /// Smallest shift that is repaired, in pixels.
 const REPAIRED: f32 = 0.2;
 /// Share of the photographs that must show the same thing.
@@ -49,6 +53,9 @@ pub(crate) fn settle(
             .collect()
     };
     check_groups(&found, &names, notices)?;
+    if ShotLight::new(stack, mask).lit_share() < MIRROR {
+        return Ok(unmoved);
+    }
     if align {
         return Ok(Some(repair(stack, mask, &found)?));
     }
@@ -59,10 +66,6 @@ pub(crate) fn settle(
         .filter(|&shot| found.shifts[shot].pixels() > above(SAID))
         .collect();
     let sure = |shot: &&usize| found.shifts[**shot].certainty > SURE;
-    // If nearly all shots seem to move and hardly one surely, it is the light on a mirror.
-    if 2 * moved.len() > stack.len() && 4 * moved.iter().filter(sure).count() < moved.len() {
-        return Ok(None);
-    }
     let pixels_of = |shots: &mut dyn Iterator<Item = &usize>| {
         let shifts = shots.map(|&shot| found.shifts[shot].pixels());
         shifts.fold(0.0, f32::max)
