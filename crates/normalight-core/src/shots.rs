@@ -71,7 +71,8 @@ impl ShotLight {
         let seen: Vec<usize> = (0..self.shots[shot].len())
             .filter(|&place| self.shots[shot][place] > 2.0 * NOISE * self.bright)
             .collect();
-        if count < 4 || self.means[shot] > 0.6 * usual || 2 * seen.len() < self.shots[shot].len() {
+        // Of few shots the darkest is often like that by chance.
+        if count < 6 || self.means[shot] > 0.6 * usual || 2 * seen.len() < self.shots[shot].len() {
             return None;
         }
         let noise = NOISE * self.bright;
@@ -87,11 +88,12 @@ impl ShotLight {
         };
         let shadows = seen.iter().filter(as_bright).count() as f32 / seen.len() as f32;
         let nowhere = others().all(|other| darker(other) < 0.02);
-        (nowhere && shadows > 0.05).then_some(shot)
+        (nowhere && shadows > 0.15).then_some(shot)
     }
 
     /// A shot that is brighter than all others and in which nothing lies in shadow, though in all
-    /// others much does: the room's light was on.
+    /// others much does: the room's light was on, or a stronger lamp stood beside the camera, which
+    /// looks the same.
     pub fn room_lit(&self) -> Option<usize> {
         let count = self.shots.len();
         if count < 4 {
@@ -126,6 +128,20 @@ impl ShotLight {
             .map(|(here, other)| here / other);
         let shares: Vec<f32> = shares.collect();
         quantile(shares.clone(), 0.1) / quantile(shares, 0.5).max(NOISE)
+    }
+
+    /// Share of the object that is lit in the middle one of the shots: brighter than a twentieth of
+    /// its brightest places.
+    ///
+    /// Below 0.03 little but highlights is seen, as on mirror balls: measured there 0.004 to 0.034, on
+    /// other rendered and photographed objects 0.06 and more, mostly above 0.4.
+    pub fn lit_share(&self) -> f32 {
+        let shares = self.shots.iter().map(|shot| {
+            let bright = quantile(shot.clone(), 0.999);
+            let lit = shot.iter().filter(|light| **light > 0.05 * bright).count();
+            lit as f32 / shot.len() as f32
+        });
+        quantile(shares.collect(), 0.5)
     }
 
     /// How much two shots of the same brightness differ: the mean difference relative to the mean.

@@ -26,8 +26,12 @@ fn main() {
             .map(|shot| shot.pixels())
             .fold(0.0, f32::max);
         let groups: Vec<usize> = found.groups.iter().map(Vec::len).collect();
+        let area = input
+            .mask
+            .bounding_box()
+            .map(|area| [area.width, area.height]);
         println!(
-            "{folder}: most {most:.2} moved [{}] groups {groups:?}",
+            "{folder}: object {area:?} most {most:.2} moved [{}] groups {groups:?}",
             moved.join(" ")
         );
         for notice in &input.plan.notices {

@@ -428,7 +428,7 @@ impl fmt::Display for Notice {
             ),
             Self::RoomLit { file } => write!(
                 f,
-                "{file}: brighter and flatter than all others; was another light on? Leave it out if so"
+                "{file}: brighter and flatter than all others; if not a strong lamp beside the camera but another light was on, leave it out"
             ),
             Self::AmbientLeftOut { file } => write!(
                 f,

@@ -23,7 +23,7 @@ pub(super) fn groups(spectra: &Spectra, most: usize) -> Vec<Vec<usize>> {
     let mut fits = vec![vec![0.0; count]; count];
     for (a, &first) in chosen.iter().enumerate() {
         for (b, &second) in chosen.iter().enumerate().skip(a + 1) {
-            let fit = spectra.fit(spectra.spectrum(first), second).best;
+            let fit = spectra.likeness(first, second);
             (fits[a][b], fits[b][a]) = (fit, fit);
         }
     }

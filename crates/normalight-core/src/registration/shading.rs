@@ -1,7 +1,8 @@
 //! Whether pictures are shaded as one surface is.
 use super::view::Picture;
 
-/// Dimensions in which the shading of a matte surface lies, and rounds of the iteration.
+/// Dimensions in which the shading of a matte surface lies (fewer where few pictures would be
+/// explained by as many whatever they show), and rounds of the iteration.
 const DIMENSIONS: usize = 3;
 const ROUNDS: usize = 60;
 
@@ -24,10 +25,11 @@ pub(super) fn unexplained(pictures: &[Picture]) -> f32 {
         }
     }
     let trace: f64 = (0..count).map(|at| products[at][at]).sum();
-    if count <= DIMENSIONS || trace <= 0.0 {
+    if count < 2 || trace <= 0.0 {
         return 0.0;
     }
-    (1.0 - largest(&products) / trace).max(0.0) as f32
+    let dimensions = ((count - 1) / 2).clamp(1, DIMENSIONS);
+    (1.0 - largest(&products, dimensions) / trace).max(0.0) as f32
 }
 
 /// Unit energy; `None` of a black picture.
@@ -44,11 +46,11 @@ fn normalised(picture: &Picture) -> Option<Vec<f32>> {
 
 /// Sum of the largest eigenvalues of a symmetric matrix without negative ones, by orthogonal
 /// iteration (Golub and Van Loan, 7.3).
-fn largest(matrix: &[Vec<f64>]) -> f64 {
+fn largest(matrix: &[Vec<f64>], dimensions: usize) -> f64 {
     let size = matrix.len();
     // Any start that no eigenvector is likely to be orthogonal to.
     let start = |axis: usize| (0..size).map(move |at| 1.0 + ((at * (axis + 2)) % 5) as f64 * 0.3);
-    let mut axes: Vec<Vec<f64>> = (0..DIMENSIONS).map(|axis| start(axis).collect()).collect();
+    let mut axes: Vec<Vec<f64>> = (0..dimensions).map(|axis| start(axis).collect()).collect();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut sum = 0.0;
     for _ in 0..ROUNDS {
@@ -91,7 +93,7 @@ mod tests {
         for (at, value) in [7.0, 1.0, 0.5, 4.0, 2.0].into_iter().enumerate() {
             matrix[at][at] = value;
         }
-        assert!((largest(&matrix) - 13.0).abs() < 1e-6);
+        assert!((largest(&matrix, 3) - 13.0).abs() < 1e-6);
     }
 
     #[test]

@@ -79,10 +79,6 @@ impl Spectra {
         vec![Complex32::ZERO; self.transform.len()]
     }
 
-    pub(super) fn spectrum(&self, shot: usize) -> &[Complex32] {
-        &self.spectra[shot]
-    }
-
     /// Adds `sign` times a shot, moved back by its shift, to a sum.
     pub(super) fn add(&self, sum: &mut [Complex32], shot: usize, shift: [f32; 2], sign: f32) {
         let height = self.transform.height;
@@ -101,13 +97,9 @@ impl Spectra {
 
     /// How a shot fits a sum of others (or one of them), without the shot itself.
     pub(super) fn fit(&self, reference: &[Complex32], shot: usize) -> Fit {
-        let pairs = reference.iter().zip(&self.spectra[shot]);
-        let product: Vec<Complex32> = pairs.map(|(a, b)| a.conj() * b).collect();
+        let product = self.product(reference, shot);
         let surface = self.transform.inverse(product.clone());
-        let count = surface.len() as f64;
-        let sum: f64 = surface.iter().map(|value| f64::from(value.re)).sum();
-        let squares: f64 = surface.iter().map(|v| f64::from(v.re).powi(2)).sum();
-        let deviation = (squares / count - (sum / count).powi(2)).max(0.0).sqrt() as f32;
+        let deviation = deviation(&surface);
         if deviation <= NOTHING {
             return Fit::default();
         }
@@ -135,6 +127,21 @@ impl Spectra {
             best: best / deviation,
             unmoved: at(0, 0) / deviation,
         }
+    }
+
+    /// How far the best fit of two shots stands out over all shifts, however large.
+    pub(super) fn likeness(&self, a: usize, b: usize) -> f32 {
+        let surface = self.transform.inverse(self.product(&self.spectra[a], b));
+        let best = surface.iter().map(|value| value.re).fold(0.0, f32::max);
+        match deviation(&surface) {
+            deviation if deviation > NOTHING => best / deviation,
+            _ => 0.0,
+        }
+    }
+
+    fn product(&self, reference: &[Complex32], shot: usize) -> Vec<Complex32> {
+        let pairs = reference.iter().zip(&self.spectra[shot]);
+        pairs.map(|(a, b)| a.conj() * b).collect()
     }
 
     /// The best shift near another, from the fit at places between the pixels (Guizar-Sicairos,
@@ -178,6 +185,14 @@ fn turn(length: usize, shift: f32) -> Vec<Complex32> {
         Complex32::new(cosine as f32, sine as f32)
     });
     turns.collect()
+}
+
+/// Standard deviation of a correlation over all shifts.
+fn deviation(surface: &[Complex32]) -> f32 {
+    let count = surface.len() as f64;
+    let sum: f64 = surface.iter().map(|value| f64::from(value.re)).sum();
+    let squares: f64 = surface.iter().map(|v| f64::from(v.re).powi(2)).sum();
+    (squares / count - (sum / count).powi(2)).max(0.0).sqrt() as f32
 }
 
 /// Where the parabola through three neighbours is highest, from the middle one, -0.5 to 0.5.
