@@ -178,7 +178,7 @@ fn coverage(x: u32, y: u32) -> f32 {
 
 #[test]
 fn soft_edges_noise_and_small_values() {
-    let hard = |x, y| coverage(x, y) > 0.5;
+    let hard = |x, y| coverage(x, y) >= 0.5;
     let truth = decode_mask("m.png", &mask_png(20, 20, hard)).unwrap();
     let soft = grey_png(20, 20, |x, y| (255.0 * coverage(x, y)).round() as u8);
     assert_eq!(decode_mask("m.png", &soft).unwrap(), truth);
