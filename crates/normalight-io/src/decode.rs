@@ -166,8 +166,8 @@ fn taken(color: ColorMode, format: ImageFormat, samples: &Samples, said: Stateme
     }
 }
 
-/// What is no finite number becomes the largest finite one, and what is below all becomes 0; their
-/// number, when there were any.
+/// Infinite values become the largest finite one, or 0 below all; their number, when there were
+/// any. What is not a number stays, and is refused with the stack: nobody knows what it stands for.
 fn tame_infinite(values: &mut [f32]) -> Option<usize> {
     let largest = values.iter().copied().filter(|value| value.is_finite());
     let largest = largest.fold(0.0, f32::max);
@@ -175,12 +175,8 @@ fn tame_infinite(values: &mut [f32]) -> Option<usize> {
         return None;
     }
     let mut count = 0;
-    for value in values.iter_mut().filter(|value| !value.is_finite()) {
-        *value = if *value == f32::NEG_INFINITY {
-            0.0
-        } else {
-            largest
-        };
+    for value in values.iter_mut().filter(|value| value.is_infinite()) {
+        *value = if *value > 0.0 { largest } else { 0.0 };
         count += 1;
     }
     (count > 0).then_some(count)

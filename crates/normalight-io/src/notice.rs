@@ -70,8 +70,7 @@ pub enum Notice {
         /// How many.
         channels: usize,
     },
-    /// Samples without a finite value (infinite or not a number), taken as the brightest finite
-    /// one.
+    /// Samples without a finite value: infinite ones were taken as the brightest finite one.
     Infinite {
         /// The file.
         file: String,
@@ -330,7 +329,7 @@ impl fmt::Display for Notice {
             ),
             Self::Infinite { file, samples } => write!(
                 f,
-                "{file}: {samples} samples infinite or not a number, taken as the brightest finite value"
+                "{file}: {samples} infinite samples, taken as the brightest finite value"
             ),
             Self::Orientations { files } => write!(
                 f,

@@ -1,9 +1,8 @@
 //! TIFF as programs write it, made here byte by byte.
-use crate::common::file;
-use crate::decode;
-use crate::writer::{self, Order, Tiff, bits, pack_bits, pack_lzw, short, tiff};
+use crate::writer::{Order, Tiff, bits, pack_bits, pack_lzw, short, tiff};
+use crate::{decode, notices};
 use normalight_core::Samples;
-use normalight_io::{IoError, MaskChoice, Notice, ReadOptions, read_stack};
+use normalight_io::{IoError, Notice};
 
 #[test]
 fn tiffs_of_scientists() {
@@ -56,26 +55,6 @@ fn tiffs_of_scientists() {
         codes.iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 1),
         "{codes:?}"
     );
-}
-
-/// What cannot be read right is refused in words, never read wrong.
-#[test]
-fn tiffs_that_are_refused() {
-    let cmyk = tiff(2, 1, &[bits(4, 8), short(262, 5), short(277, 4)], &[0; 8]);
-    let five = tiff(2, 1, &[bits(5, 8), short(262, 1), short(277, 5)], &[5; 10]);
-    let dng = tiff(
-        2,
-        1,
-        &[bits(1, 8), short(262, 1), (50_706, 1, vec![1])],
-        &[5; 2],
-    );
-    for (bytes, words) in [(cmyk, "CMYK"), (five, "5 channels"), (dng, "RAW")] {
-        let error = decode("a.tif", &bytes).unwrap_err().to_string();
-        assert!(
-            error.starts_with("a.tif:") && error.contains(words) && error.contains("export"),
-            "{error}"
-        );
-    }
 }
 
 /// What a sample is, by its place; no two channels alike.
@@ -137,21 +116,11 @@ fn extra_channels_come_out_whole_in_every_layout() {
     }
 }
 
-/// What is said about three shots, no two alike.
-fn notices(make: impl Fn(u32) -> Vec<u8>) -> Vec<Notice> {
-    let files = (0..3).map(|turn| file(&format!("{turn}.tif"), make(turn)));
-    let options = ReadOptions {
-        mask: MaskChoice::WholeFrame,
-        ..ReadOptions::default()
-    };
-    read_stack(files.collect(), &options).unwrap().plan.notices
-}
-
 #[test]
 fn channels_that_are_left_out_are_told() {
     let tags = [short(262, 2), (338, 3, vec![0, 0])];
     let image = Tiff::new(16, 16, 8, 5);
-    let told = notices(|turn| {
+    let told = notices("tif", |turn| {
         image.bytes(&tags, &|x, y, c| {
             (40 + 7 * x * turn + 5 * y + 31 * c as u32) % 256
         })
@@ -300,73 +269,4 @@ fn short_strips_are_cut_off() {
         error.starts_with("a.tif:") && error.contains("cut off"),
         "{error}"
     );
-}
-
-#[test]
-fn the_first_picture_among_pages_is_taken_and_told() {
-    let told = |pages: &[(u8, bool)]| {
-        let found = decode("a.tif", &writer::pages(pages, 0)).unwrap().image;
-        let Samples::U8(codes) = found.samples else {
-            panic!()
-        };
-        (codes[0], notices(|turn| writer::pages(pages, turn)))
-    };
-    let several = |pages, page| Notice::SeveralPages {
-        file: "1.tif".to_owned(),
-        pages,
-        page,
-    };
-    let (first, notices) = told(&[(9, false), (70, false), (50, false)]);
-    assert_eq!(first, 9);
-    assert!(notices.contains(&several(3, 1)), "{notices:?}");
-    let (first, notices) = told(&[(9, true), (70, false)]);
-    assert_eq!(first, 70);
-    assert!(notices.contains(&several(2, 2)), "{notices:?}");
-    let error = decode("a.tif", &writer::pages(&[(9, true)], 0)).unwrap_err();
-    assert!(error.to_string().contains("previews only"), "{error}");
-}
-
-/// RAW files begin with a small preview, the mosaic lies in a directory below.
-#[test]
-fn the_preview_of_a_raw_file_is_never_taken() {
-    for (tag, value) in [(262, 32_803), (262, 34_892), (259, 34_713)] {
-        let bytes = writer::below(tag, value);
-        for name in ["a.tif", "DSC_0001.tif"] {
-            let error = decode(name, &bytes).unwrap_err().to_string();
-            assert!(
-                error.starts_with(name) && error.contains("RAW") && error.contains("dcraw_emu"),
-                "{error}"
-            );
-        }
-    }
-}
-
-#[test]
-fn other_refusals_name_what_was_found() {
-    let method = |method| {
-        let tags = [bits(1, 8), short(262, 1), short(259, method)];
-        tiff(2, 1, &tags, &[0; 2])
-    };
-    let of = |bits_of: (u16, u16, Vec<u32>), photometric, kind| {
-        let tags = [bits_of, short(262, photometric), short(339, kind)];
-        tiff(2, 1, &tags, &[0; 16])
-    };
-    let shared = tiff(2, 2, &[bits(3, 8), short(262, 6), short(277, 3)], &[9; 12]);
-    for (bytes, words) in [
-        (method(34_712), "JPEG 2000"),
-        (method(34_887), "LERC"),
-        (method(34_925), "LZMA"),
-        (method(6), "TIFF 6.0"),
-        (method(12_345), "compression 12345"),
-        (of(bits(1, 24), 1, 3), "floating-point samples of 24 bits"),
-        (of(bits(1, 24), 1, 1), "24 bits"),
-        (of(bits(1, 64), 1, 6), "complex"),
-        (of(bits(1, 8), 9, 1), "Lab"),
-        (shared, "share"),
-    ] {
-        let error = decode("a.tif", &bytes).unwrap_err();
-        assert!(matches!(&error, IoError::Unread { .. }), "{error}");
-        let error = error.to_string();
-        assert!(error.contains(words) && error.contains("export"), "{error}");
-    }
 }
