@@ -2,6 +2,11 @@
 // Changes by hand are lost: change the Rust types.
 
 /**
+ * What becomes of a picture without lamp.
+ */
+export type AmbientSetting = "none" | "auto";
+
+/**
  * How samples were taken to relate to light.
  */
 export interface ColorDecision {
@@ -29,6 +34,100 @@ export type ColorReason = "asked" | "stated" | "benchmark" | "shading" | "usual"
  * How class probabilities become numbers.
  */
 export type Decoding = "argmax" | "soft-argmax";
+
+/**
+ * How normals become depth.
+ */
+export interface DepthSettings {
+    /**
+     * How the camera saw the object.
+     */
+    projection?: Projection;
+    /**
+     * What is minimised.
+     */
+    integration?: Integration;
+}
+
+/**
+ * What is known of derived files: `depth.json`.
+ */
+export interface DerivedReport {
+    /**
+     * What was asked for.
+     */
+    settings: DerivedSettings;
+    /**
+     * Lowest and highest height in pixels, towards the camera; the mean of each part is zero.
+     */
+    range: [number, number];
+    /**
+     * Connected parts of the mask, whose heights have nothing to do with each other.
+     */
+    parts: number;
+    /**
+     * Pixels without a normal, filled in.
+     */
+    missing: number;
+    /**
+     * Pixels whose normal is turned too far from the camera to be used, filled in.
+     */
+    steep: number;
+    /**
+     * Share of neighbouring pixels between which the surface is torn.
+     */
+    torn: number;
+    /**
+     * Pixels of height for one step of grey in `height.png`.
+     */
+    height_step: number | null;
+    /**
+     * The same in `map-height.png`.
+     */
+    map_height_step: number | null;
+    /**
+     * Curvature (1 / pixels) that is white in `map-curvature.png`.
+     */
+    curvature_white: number | null;
+    /**
+     * Every how many pixels the mesh has a vertex.
+     */
+    mesh_step: number | null;
+}
+
+/**
+ * What to make of normals.
+ */
+export interface DerivedSettings {
+    /**
+     * How normals become depth.
+     */
+    depth?: DepthSettings;
+    /**
+     * Take off the bow of a nearly flat object first.
+     */
+    flatten?: boolean;
+    /**
+     * Heights as PNG, TIFF and EXR.
+     */
+    heights?: boolean;
+    /**
+     * A mesh in this format.
+     */
+    mesh?: MeshFileFormat | null;
+    /**
+     * About how many triangles it may have at most.
+     */
+    triangles?: number;
+    /**
+     * Maps for painting and engines: normals, albedo, height, curvature, ambient occlusion.
+     */
+    maps?: MapSettings | null;
+    /**
+     * Fade opposite edges of the maps into each other, so that they repeat without seams.
+     */
+    tileable?: boolean;
+}
 
 /**
  * What an estimation gives.
@@ -141,10 +240,23 @@ export interface InputPlan {
      */
     lights: LightsDecision | undefined;
     /**
+     * The picture without lamp that was subtracted.
+     */
+    ambient: string | undefined;
+    /**
+     * By how many pixels a photograph was moved at most, where that was asked for.
+     */
+    aligned: number | undefined;
+    /**
      * What is doubtful.
      */
     notices: Notice[];
 }
+
+/**
+ * What makes a height field fit normals.
+ */
+export type Integration = "bilateral" | "poisson";
 
 /**
  * A file that is not among the photographs.
@@ -163,7 +275,7 @@ export interface LeftOut {
 /**
  * Why a file is not among the photographs.
  */
-export type LeftOutReason = { kind: "mask" } | { kind: "ambient" } | { kind: "map"; word: string } | { kind: "not-listed" } | { kind: "other-size"; size: [number, number] } | { kind: "unread-format"; format: string } | { kind: "archive" } | { kind: "link" } | { kind: "other-folder" } | { kind: "not-an-image" } | { kind: "system" };
+export type LeftOutReason = { kind: "mask" } | { kind: "ambient" } | { kind: "shows-no-lamp" } | { kind: "map"; word: string } | { kind: "not-listed" } | { kind: "other-size"; size: [number, number] } | { kind: "unread-format"; format: string } | { kind: "archive" } | { kind: "link" } | { kind: "other-folder" } | { kind: "not-an-image" } | { kind: "system" };
 
 /**
  * The light of one photograph: a unit vector from the object to the light, x right, y up, z to the camera.
@@ -201,6 +313,28 @@ export interface LightsDecision {
 }
 
 /**
+ * How maps are painted.
+ */
+export interface MapSettings {
+    /**
+     * Which way green points.
+     */
+    normal_format?: NormalFormat;
+    /**
+     * What is painted outside the object.
+     */
+    outside?: Outside;
+    /**
+     * Add the mask as transparency.
+     */
+    alpha?: boolean;
+    /**
+     * Eight bits a channel for normals instead of sixteen.
+     */
+    eight_bits?: boolean;
+}
+
+/**
  * Where a mask came from: a file, transparency, a guess from the photographs, or nowhere: the whole frame.
  */
 export type MaskOrigin = "file" | "alpha" | "guessed" | "none";
@@ -229,6 +363,11 @@ export interface MaskReport {
 export type MaskSetting = "auto" | "none";
 
 /**
+ * Formats in which meshes are written.
+ */
+export type MeshFileFormat = "glb" | "obj" | "ply";
+
+/**
  * By what two names were found to mean the same file, the surest first.
  */
 export type NameMatch = "full" | "path-end" | "stem" | "number" | "position";
@@ -241,7 +380,7 @@ export type NormalFormat = "opengl" | "directx";
 /**
  * Something about the input that a person should know.
  */
-export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "from-archive"; archive: string; folder: string } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "odd-name"; file: string } | { kind: "several-pages"; file: string; pages: number } | { kind: "infinite"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string } | { kind: "color-unstated"; taken: string } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-as-angles"; file: string; unit: string };
+export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "from-archive"; archive: string; folder: string } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "odd-name"; file: string } | { kind: "several-pages"; file: string; pages: number; page: number } | { kind: "animation"; file: string } | { kind: "several-layers"; file: string; taken: string; others: string[] } | { kind: "extra-channels"; file: string; channels: number } | { kind: "infinite"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string; taken: string } | { kind: "color-unstated"; taken: string; sure: number | undefined } | { kind: "color-mixed"; said: string[] } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number; sure: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "overexposed"; share: number } | { kind: "lamp-hardly-moved"; difference: number } | { kind: "room-lit"; file: string } | { kind: "ambient-left-out"; file: string } | { kind: "no-ambient" } | { kind: "ambient-brighter"; file: string; share: number } | { kind: "camera-moved"; files: string[]; pixels: number } | { kind: "unlike"; files: string[] } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-as-angles"; file: string; unit: string };
 
 /**
  * What decided about the photographs and their order.
@@ -268,6 +407,11 @@ export interface OutputFile {
 export type OutputName = "normals.png" | "normals.npy" | "lights.csv" | "lights.lp" | "lights.svg" | "albedo.png" | "mask.png" | "report.json";
 
 /**
+ * What is painted outside the object.
+ */
+export type Outside = "flat" | "dilated";
+
+/**
  * Which of some files are the photographs, and which is the mask.
  */
 export interface Plan {
@@ -292,6 +436,11 @@ export interface Plan {
      */
     words: string[];
 }
+
+/**
+ * How a camera projects points.
+ */
+export type Projection = "orthographic" | { perspective: { focal: number } };
 
 /**
  * Over how many views of the photographs an estimate is averaged.
@@ -417,6 +566,14 @@ export interface Settings {
      * Which way the axes of a light file point: `x-right,y-up,z-out` (ours), `x-right,y-down,z-in`, ...
      */
     lightAxes?: string;
+    /**
+     * Lay photographs that a moved camera took over the others.
+     */
+    align?: boolean;
+    /**
+     * What becomes of a picture without lamp.
+     */
+    ambient?: AmbientSetting;
     /**
      * Which way green points in `normals.png` and the preview.
      */
