@@ -75,7 +75,6 @@ fn inputs_of_all_kinds_give_the_normals_of_the_plain_stack() {
     for (folder, most) in [
         ("01-icc-tiff16/a-srgb-tiff16", SAME),
         ("01-icc-tiff16/b-prophoto-tiff16", SAME),
-        ("02-exif-overhead/a-quarter-turns", SAME_AFTER_LOSSES),
         ("03-lp-decimal-comma/photos", SAME),
         ("08-maps-among-photos/b-other-tool-results", SAME),
         ("11-extension-lies/photos", SAME_AFTER_LOSSES),

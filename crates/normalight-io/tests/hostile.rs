@@ -91,7 +91,7 @@ fn many_large_layers() {
     assert_eq!(found, 3);
     // Refused before memory for windows of so many pixels is taken.
     let error = decode_image("a.exr", &bytes, ColorMode::Auto).unwrap_err();
-    assert!(error.to_string().contains("the channels Z, id"), "{error}");
+    assert!(error.to_string().starts_with("a.exr"), "{error}");
 }
 
 /// What is written is read again, whatever the photographs are called.
