@@ -6,7 +6,7 @@ use normalight_core::{
 };
 
 /// Smallest shorter side of the object, in pixels, where anything can be said.
-const SMALLEST: usize = 20;
+const SMALLEST: usize = 48;
 /// Certainty from which a shift is refused, said, and repaired where that was asked for. Measured on
 /// rendered and photographed stacks: a still camera, of any object, at most 7 with 12 lights and more
 /// (13 with five); shifts of
