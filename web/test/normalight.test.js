@@ -86,6 +86,9 @@ test("what is left out of the options has its default", async () => {
   assert.deepEqual(await normalight.estimate([]), {
     color: "auto",
     mask: "auto",
+    lightAxes: "x-right,y-up,z-out",
+    align: false,
+    ambient: "none",
     images: undefined,
     normalFormat: "opengl",
     refit: true,

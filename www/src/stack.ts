@@ -51,13 +51,13 @@ export class Stack {
     const kept = keep ? this.#entries.filter(({ file }) => !names.has(file.name)) : [];
     this.#entries = [...kept, ...added];
     if (!keep) this.#archives = [];
-    this.#look();
+    this.#lookAgain();
   }
 
   /** How samples are to be taken: thumbnails show it. */
   set color(color: ColorMode) {
     this.#color = color;
-    this.#look();
+    this.#lookAgain();
   }
 
   #entry(file: File): Entry {
@@ -71,9 +71,16 @@ export class Stack {
     const entry: Entry = { file, tile, picture };
     remove.addEventListener("click", () => {
       this.#entries = this.#entries.filter((other) => other !== entry);
-      this.#look();
+      this.#lookAgain();
     });
     return entry;
+  }
+
+  /** The files or their colour have changed. */
+  #lookAgain(): void {
+    // Said at once: the words of a run that begins before all files are looked at must stay.
+    this.#changed();
+    void this.#look();
   }
 
   /** Finds out what the files are, and shows the photographs one after the other. */
@@ -139,7 +146,6 @@ export class Stack {
     this.#problems.hidden = bad.length === 0 && !this.#problem;
     if (this.#problem) say(this.#problems, this.#problem);
     else this.#problems.replaceChildren(...bad.map((words) => make("p", "", words)));
-    this.#changed();
   }
 
   #words(): string {

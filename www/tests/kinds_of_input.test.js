@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { basename } from "node:path";
 import { after, before, test } from "node:test";
 import { normalDifference } from "./support/compare.js";
 import { commandResults, goldenStack, greyPng, zipOf } from "./support/files.js";
@@ -26,10 +27,15 @@ const heic = {
   bytes: new Uint8Array([0, 0, 0, 24, ...text.encode("ftypheic"), 0, 0, 0, 0, ...text.encode("mif1heic")]),
 };
 
-/** The command's plan of the same files. @param {TestFile[]} files @param {string[]} options */
+/**
+ * The command's plan of the same files; it knows where the list lies, the page its name alone.
+ * @param {TestFile[]} files @param {string[]} options
+ */
 function commandPlan(files, ...options) {
   const report = commandResults(files, ...options).get("report.json");
-  return JSON.parse(new TextDecoder().decode(report)).plan;
+  const { plan } = JSON.parse(new TextDecoder().decode(report));
+  if (plan.order.list) plan.order.list = basename(plan.order.list);
+  return plan;
 }
 
 /** The page's plan, from the report that it offers. */

@@ -37,9 +37,7 @@ impl<'a> Packages<'a> {
 
     /// Says what is about to be run, and asks where somebody sits at a terminal; an error if it may not be.
     pub fn announce(&self, command: &str) -> Result<()> {
-        if self.installing == Installing::Forbidden {
-            bail!("nothing may be installed (--no-install); run it yourself: {command}");
-        }
+        self.allowed(&format!("run it yourself: {command}"))?;
         self.workspace.say(&format!("setup: {command}"));
         if !stdin().is_terminal() {
             return Ok(());
@@ -49,6 +47,14 @@ impl<'a> Packages<'a> {
         stdin().read_line(&mut answer)?;
         if !agrees(&answer) {
             bail!("not installed; run it yourself: {command}");
+        }
+        Ok(())
+    }
+
+    /// An error, with what to do instead, where nothing may be installed.
+    fn allowed(&self, instead: &str) -> Result<()> {
+        if self.installing == Installing::Forbidden {
+            bail!("nothing may be installed (--no-install); {instead}");
         }
         Ok(())
     }
@@ -74,9 +80,7 @@ impl<'a> Packages<'a> {
         if which::which("apt-get").is_err() {
             bail!("there is no apt-get here to install {}", names.join(" "));
         }
-        if self.installing == Installing::Forbidden {
-            bail!("nothing may be installed (--no-install); {by_hand}");
-        }
+        self.allowed(&by_hand)?;
         let root = run::read(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
         if !root && !run::works("sudo", &["-n", "true"]) {
             bail!("no right to install packages; {by_hand}");

@@ -1,5 +1,5 @@
 //! Ctrl-C and SIGTERM: the first asks the work to end in good order, the second ends it at once.
-use crate::INTERRUPTED;
+use crate::exit::EXIT;
 use crate::terminal::note;
 use anyhow::{Context, Result};
 use std::ops::ControlFlow;
@@ -11,7 +11,7 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 pub(crate) fn listen() -> Result<()> {
     ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED.into());
+            std::process::exit(EXIT.interrupted.into());
         }
         note("stopping; press Ctrl-C again to stop at once");
     })

@@ -7,6 +7,7 @@ mod device;
 mod display;
 mod estimate;
 mod evaluate;
+mod exit;
 mod interrupt;
 mod mesh;
 mod monitor;
@@ -23,7 +24,7 @@ mod train;
 
 use args::{Arguments, Command};
 use clap::Parser;
-use normalight_run::{Failure, RunError, exit_code};
+use normalight_run::{Failure, RunError};
 use normalight_train::TrainError;
 use std::process::ExitCode;
 use terminal::note;
@@ -38,9 +39,6 @@ enum Outcome {
     Interrupted,
 }
 
-/// What shells expect of a program that Ctrl-C ended; also for SIGTERM.
-const INTERRUPTED: u8 = 130;
-
 fn main() -> ExitCode {
     display::quiet_without();
     // Wrong usage ends here, with code 2.
@@ -54,21 +52,12 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(args),
         Command::Bench(args) => bench::run(args),
     });
-    match outcome {
-        Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::PartlyFailed) => ExitCode::FAILURE,
-        Ok(Outcome::Interrupted) => {
-            note("interrupted");
-            ExitCode::from(INTERRUPTED)
-        }
-        Err(error) => {
-            note(&format!("error: {error:#}{}", hint(&error)));
-            match error.downcast_ref::<TrainError>() {
-                Some(error) => ExitCode::from(exit_code(error)),
-                None => ExitCode::FAILURE,
-            }
-        }
+    match &outcome {
+        Ok(Outcome::Done | Outcome::PartlyFailed) => {}
+        Ok(Outcome::Interrupted) => note("interrupted"),
+        Err(error) => note(&format!("error: {error:#}{}", hint(error))),
     }
+    exit::code(&outcome)
 }
 
 /// What the command has to offer against an error.

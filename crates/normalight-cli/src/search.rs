@@ -6,7 +6,7 @@ use crate::choices::DeviceChoice;
 use crate::monitor::Monitor;
 use crate::terminal::{note, print};
 use crate::train::describe;
-use crate::{Outcome, device, interrupt, search_recipe};
+use crate::{Outcome, device, exit, interrupt, search_recipe};
 use anyhow::{Context, Result, bail};
 use normalight_io::write_files;
 use normalight_run::{RunError, RunState};
@@ -53,7 +53,7 @@ fn find(args: &SearchArgs, recipe: SearchRecipe) -> Result<Outcome> {
         folder: args.run.clone(),
         resume: args.resume,
         steps_on: device::steps_on(&device),
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        caller: exit::caller(),
     };
     let summary = search(&run, &device, |event| {
         monitor.show(event);

@@ -4,7 +4,7 @@ use crate::args::TrainArgs;
 use crate::choices::word;
 use crate::monitor::Monitor;
 use crate::terminal::{note, print};
-use crate::{device, interrupt};
+use crate::{device, exit, interrupt};
 use anyhow::{Context, Result, bail};
 use normalight_run::{RunError, RunState, Summary};
 use normalight_train::{Devices, TrainError, TrainRecipe, TrainRun, train};
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &TrainArgs) -> Result<Outcome> {
         recipe,
         folder: args.run.clone(),
         resume: args.resume,
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        caller: exit::caller(),
     };
     let devices = Devices {
         main,

@@ -1,3 +1,4 @@
+//! What can be wrong with files. Longer than other files: the errors of a library are one type.
 use normalight_core::CoreError;
 use thiserror::Error;
 

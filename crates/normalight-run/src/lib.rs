@@ -6,6 +6,7 @@
 #![deny(missing_docs)]
 
 mod average;
+mod caller;
 mod check;
 mod checkpoint;
 mod curves;
@@ -25,6 +26,7 @@ mod summary;
 mod training_loop;
 
 pub use average::Average;
+pub use caller::{Caller, ExitCodes};
 pub use check::check;
 pub use checkpoint::{Loaded, load};
 pub use difference::{Difference, differences};
@@ -41,5 +43,5 @@ pub use seeded::seeded;
 pub use session::{RunEvent, Session, run_job};
 pub use spec::{LoopSchedule, RunSpec};
 pub use state::{Best, TrainingState};
-pub use summary::{RunState, Summary, exit_code};
+pub use summary::{RunState, Summary};
 pub use training_loop::StepReport;

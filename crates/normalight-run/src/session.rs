@@ -151,7 +151,7 @@ impl<O: FnMut(RunEvent) -> ControlFlow<()>> Session<'_, O> {
             Err(error) => {
                 if folder.has_run() {
                     folder.log(&format!("error: {error}"));
-                    let summary = self.summary(RunState::Failed).failed(&error);
+                    let summary = self.summary(RunState::Failed).failed(self.spec, &error);
                     // The error itself matters more than one in telling about it, on a full disk say.
                     let _ = folder.write_summary(&summary);
                 } else {
@@ -256,6 +256,7 @@ mod tests {
                 checkpoint_every: 3,
                 batch: 1,
             },
+            exit_codes: None,
             result: "place.txt",
         };
         let mut observe = |event| match event {

@@ -1,3 +1,4 @@
+use crate::ExitCodes;
 use std::path::PathBuf;
 
 /// A run as its folder knows it.
@@ -19,6 +20,8 @@ pub struct RunSpec {
     pub seed: u64,
     /// How long, and how often what.
     pub schedule: LoopSchedule,
+    /// What the process ends with that carries it out, for the summary.
+    pub exit_codes: Option<ExitCodes>,
     /// Name of the file that holds the best result.
     pub result: &'static str,
 }

@@ -1,5 +1,5 @@
 //! `summary.json`: how a run stands, for job schedulers and workflow engines.
-use crate::{Best, Failure, RunError, RunSpec, TrainingState, sha256};
+use crate::{Best, Failure, RunSpec, TrainingState, sha256};
 use serde::{Deserialize, Serialize};
 
 /// How a run stands.
@@ -23,8 +23,7 @@ pub struct Summary {
     pub state: RunState,
     /// What went wrong.
     pub reason: Option<String>,
-    /// The exit code of the command: 0 finished, 1 error, 3 diverged, 130 interrupted; nothing while
-    /// it runs.
+    /// What the process ends with, as its program says; nothing while it runs.
     pub exit_code: Option<u8>,
     /// Which network.
     pub network: String,
@@ -52,17 +51,6 @@ pub struct Summary {
     pub version: String,
 }
 
-/// What a process that fails ends with, unless the run diverged.
-const FAILED: u8 = 1;
-
-/// What a process ends with that carried out a run which an error ended: 3 when it diverged, else 1.
-pub fn exit_code(error: &impl Failure) -> u8 {
-    match error.run_error() {
-        Some(RunError::Diverged { .. }) => 3,
-        _ => FAILED,
-    }
-}
-
 impl Summary {
     /// `weights`: content of the weights file, where there is one.
     pub(crate) fn new(
@@ -71,12 +59,7 @@ impl Summary {
         state: RunState,
         weights: Option<&[u8]>,
     ) -> Self {
-        let exit_code = match state {
-            RunState::Running => None,
-            RunState::Finished => Some(0),
-            RunState::Interrupted => Some(130),
-            RunState::Failed => Some(FAILED),
-        };
+        let exit_code = spec.exit_codes.and_then(|codes| codes.of_state(state));
         Self {
             state,
             reason: None,
@@ -97,10 +80,10 @@ impl Summary {
     }
 
     /// The same run ended by an error.
-    pub(crate) fn failed(mut self, error: &impl Failure) -> Self {
+    pub(crate) fn failed(mut self, spec: &RunSpec, error: &impl Failure) -> Self {
         self.state = RunState::Failed;
         self.reason = Some(error.to_string());
-        self.exit_code = Some(exit_code(error));
+        self.exit_code = spec.exit_codes.map(|codes| codes.of_error(error));
         self
     }
 

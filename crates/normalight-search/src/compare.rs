@@ -10,7 +10,7 @@ pub use report::{Comparison, EntryKind, EntryResult, Group, SeedResult};
 use burn::tensor::Device;
 use entries::{Body, Entry, read_entries};
 use folder::{Folder, common_text};
-use normalight_run::{RunError, RunEvent, RunState, check, sha256};
+use normalight_run::{Caller, RunError, RunEvent, RunState, check, sha256};
 use normalight_train::{
     LightTask, NetworkRecipe, NormalTask, Predictor, SampleMaker, Source, Task, TrainError,
     TrainRecipe, TrainRun, train,
@@ -48,8 +48,8 @@ pub struct CompareRun {
     pub multiply_adds: Option<u64>,
     /// Folder of the trainings and of `compare.json`; created when missing. What is finished in it is kept.
     pub folder: PathBuf,
-    /// The command line that asks for it, for the model cards.
-    pub command: String,
+    /// The program that asks for it.
+    pub caller: Caller,
 }
 
 /// What happens during a comparison.
@@ -199,7 +199,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
                 let run = TrainRun {
                     folder: folder.path().join(&name),
                     resume: true,
-                    command: self.run.command.clone(),
+                    caller: self.run.caller.clone(),
                     recipe: recipe.clone(),
                 };
                 let mut trained = false;

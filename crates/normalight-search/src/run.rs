@@ -6,7 +6,7 @@ use super::{SearchRecipe, SearchTask};
 use burn::tensor::Device;
 use normalight_run::RunError;
 use normalight_run::{
-    Learner, LoopSchedule, RunEvent, RunSpec, Session, StepsOn, Summary, load, run_job,
+    Caller, Learner, LoopSchedule, RunEvent, RunSpec, Session, StepsOn, Summary, load, run_job,
 };
 use normalight_train::{FREE, LightTask, NetworkRecipe, NormalTask, TrainError, threads};
 use std::ops::ControlFlow;
@@ -23,8 +23,8 @@ pub struct SearchRun {
     pub resume: bool,
     /// Where the steps of the weights are computed.
     pub steps_on: StepsOn,
-    /// The command line that asks for it, for the card.
-    pub command: String,
+    /// The program that asks for it.
+    pub caller: Caller,
 }
 
 /// Searches as the recipe says; `observe` as in [`train`](normalight_train::train).
@@ -120,13 +120,14 @@ fn search_network<T: SearchTask>(
             checkpoint_every: training.checkpoint_every,
             batch: training.batch,
         },
+        exit_codes: run.caller.exit_codes,
         result: RESULT,
     };
     run_job(
         &spec,
         observe,
         |session| go(recipe, device, &mut learner, session),
-        |summary| card(recipe, summary, &run.command),
+        |summary| card(recipe, summary, &run.caller.command),
     )
 }
 

@@ -7,7 +7,7 @@ mod common;
 use burn::tensor::Device;
 use common::{LIGHT, NORMAL, contents, text, whole};
 use normalight_model::Genotypes;
-use normalight_run::{RunEvent, RunState, StepsOn, Summary};
+use normalight_run::{Caller, RunEvent, RunState, StepsOn, Summary};
 use normalight_search::{SearchRecipe, SearchRun, derive_again, search};
 use normalight_train::{TrainError, TrainRecipe};
 use std::ops::ControlFlow;
@@ -37,7 +37,10 @@ fn run(
         folder: folder.to_owned(),
         resume,
         steps_on: StepsOn::Host,
-        command: "normalight search".to_owned(),
+        caller: Caller {
+            command: "normalight search".to_owned(),
+            exit_codes: None,
+        },
     };
     let mut losses = Vec::new();
     let summary = search(&run, &Device::flex(), |event| match event {

@@ -5,7 +5,7 @@
 //! The folder then holds the weights, curves, a log and a model card. Started again, it does nothing; with more steps in
 //! the recipe it goes on.
 use burn::tensor::Device;
-use normalight_run::RunEvent;
+use normalight_run::{Caller, RunEvent};
 use normalight_train::{TrainRecipe, TrainRun, train};
 use std::ops::ControlFlow;
 
@@ -34,7 +34,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         recipe: TrainRecipe::parse("tiny.toml", RECIPE)?,
         folder: folder.into(),
         resume: true,
-        command: "the example `train`".to_owned(),
+        caller: Caller {
+            command: "the example `train`".to_owned(),
+            exit_codes: None,
+        },
     };
     let summary = train(&run, &Device::flex(), |event| {
         match event {

@@ -10,7 +10,7 @@ use crate::source::Source;
 use crate::task::Task;
 use crate::{NetworkRecipe, TrainError, TrainRecipe};
 use burn::tensor::Device;
-use normalight_run::{LoopSchedule, RunEvent, RunSpec, Session, StepsOn, Summary, run_job};
+use normalight_run::{Caller, LoopSchedule, RunEvent, RunSpec, Session, StepsOn, Summary, run_job};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,8 +33,8 @@ pub struct TrainRun {
     pub folder: PathBuf,
     /// Continue from the folder's checkpoint; without one a fresh start.
     pub resume: bool,
-    /// The command line that asks for it, for the model card.
-    pub command: String,
+    /// The program that asks for it.
+    pub caller: Caller,
 }
 
 /// Where a run computes.
@@ -91,9 +91,10 @@ pub fn train<'a>(
             checkpoint_every: recipe.checkpoint_every,
             batch: recipe.batch,
         },
+        exit_codes: run.caller.exit_codes,
         result: RESULT,
     };
-    let card = |summary: &Summary| model_card(recipe, summary, &run.command);
+    let card = |summary: &Summary| model_card(recipe, summary, &run.caller.command);
     match &recipe.network {
         NetworkRecipe::Light(settings) => {
             let task = LightTask::new(settings);

@@ -3,7 +3,7 @@
 
 use burn::tensor::Device;
 use normalight_io::{ObjectToPublish, PublishedEntry, PublishedPart, PublishedWriter};
-use normalight_run::RunEvent;
+use normalight_run::{Caller, RunEvent};
 use normalight_synth::{BitDepth, Framing, Preset, Renderer};
 use normalight_train::{TrainError, TrainRecipe, TrainRun, train};
 use std::ops::ControlFlow;
@@ -44,7 +44,7 @@ fn losses(set: &Path, part: &str, more: &str) -> Result<Vec<f32>, TrainError> {
         recipe: TrainRecipe::parse("recipe.toml", &text)?,
         folder: place.path().join("run"),
         resume: false,
-        command: String::new(),
+        caller: Caller::default(),
     };
     let mut losses = Vec::new();
     train(&run, &Device::flex(), |event| {

@@ -2,8 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
 use burn::tensor::{Device, DeviceKind};
-use normalight_run::RunEvent;
-use normalight_run::StepsOn;
+use normalight_run::{Caller, RunEvent, StepsOn};
 use normalight_train::{Devices, TrainRecipe, TrainRun, train};
 use safetensors::SafeTensors;
 use std::collections::BTreeMap;
@@ -49,7 +48,7 @@ fn run(
         recipe: TrainRecipe::parse("recipe.toml", &text).unwrap(),
         folder: folder.to_owned(),
         resume: true,
-        command: String::new(),
+        caller: Caller::default(),
     };
     let mut losses = Vec::new();
     train(&run, devices, |event| {

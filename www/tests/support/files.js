@@ -72,14 +72,19 @@ function filesIn(folder) {
 }
 
 /**
- * A grey PNG of one value.
+ * A grey PNG of one value, or of a ramp from half of it that rises along an axis, as a surface looks under a lamp.
  * @param {string} name @param {number} width @param {number} height @param {number} value
+ * @param {"x" | "y" | "both"} [lit]
  * @returns {TestFile}
  */
-export function greyPng(name, width, height, value) {
-  const row = Buffer.alloc(width + 1, value);
-  row[0] = 0;
-  return { name, bytes: pngOf(width, height, deflateSync(Buffer.concat(Array(height).fill(row)))) };
+export function greyPng(name, width, height, value, lit) {
+  /** @param {number} x @param {number} y */
+  const share = (x, y) => ({ x: x / width, y: y / height, both: (x / width + y / height) / 2 });
+  const rows = Array.from({ length: height }, (_, y) => {
+    const row = Array.from({ length: width }, (_, x) => (lit ? (value / 2) * (1 + share(x, y)[lit]) : value));
+    return Buffer.from([0, ...row]);
+  });
+  return { name, bytes: pngOf(width, height, deflateSync(Buffer.concat(rows))) };
 }
 
 /**

@@ -3,7 +3,7 @@ use super::named;
 use crate::args::CompareArgs;
 use crate::monitor::Monitor;
 use crate::terminal::{note, print};
-use crate::{Outcome, device, interrupt};
+use crate::{Outcome, device, exit, interrupt};
 use anyhow::{Context, Result};
 use normalight_run::{RunError, RunEvent, RunState};
 use normalight_search::{CompareEvent, CompareRun, SeedResult, compare};
@@ -24,7 +24,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
         equal: args.equal.into(),
         multiply_adds: args.multiply_adds,
         folder: args.run.clone(),
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        caller: exit::caller(),
     };
     let mut watch = Watch::new(args.quiet);
     let compared = compare(&run, &device, |event| {

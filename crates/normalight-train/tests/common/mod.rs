@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![allow(dead_code)]
 use burn::tensor::Device;
-use normalight_run::{RunEvent, Summary};
+use normalight_run::{Caller, ExitCodes, RunEvent, Summary};
 use normalight_train::{TrainError, TrainRecipe, TrainRun, train};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -26,6 +26,14 @@ pub struct Ran {
     pub notes: Vec<String>,
 }
 
+/// Codes that no program has by default.
+pub const EXIT: ExitCodes = ExitCodes {
+    finished: 10,
+    failed: 11,
+    diverged: 13,
+    interrupted: 140,
+};
+
 pub fn recipe(text: &str) -> TrainRecipe {
     TrainRecipe::parse("recipe.toml", text).unwrap()
 }
@@ -42,7 +50,10 @@ pub fn run(
         recipe: recipe.clone(),
         folder: folder.to_owned(),
         resume,
-        command: "normalight train | tee log".to_owned(),
+        caller: Caller {
+            command: "normalight train | tee log".to_owned(),
+            exit_codes: Some(EXIT),
+        },
     };
     let (mut losses, mut notes) = (Vec::new(), Vec::new());
     let summary = train(&run, &Device::flex(), |event| {
