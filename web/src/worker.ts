@@ -1,9 +1,10 @@
 import type { Engine } from "../wasm/normalight.js";
+import { bytesOf, HEAD, read, readForPlan } from "./decode.js";
 import { chooseDevice, cpu } from "./device.js";
-import type { Thrown } from "./generated.js";
+import type { InputFile, Thrown } from "./generated.js";
 import { load, type Module } from "./load.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
-import type { DeviceChoice, DeviceReport, NamedFile, StackFile } from "./types.js";
+import type { DeviceChoice, DeviceReport, StackFile } from "./types.js";
 import { yieldToEvents } from "./yielding.js";
 
 /** The part of a worker's global scope that is used here. */
@@ -45,7 +46,7 @@ async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<
     case "create":
       return await create(wasm, message.request.device);
     case "plan":
-      return wasm.plan(await Promise.all(message.request.files.map(readText)));
+      return wasm.plan(await Promise.all(message.request.files.map(readForPlan)));
     case "unpack":
       return await unpack(wasm, message.request.files);
     case "thumbnail": {
@@ -73,7 +74,7 @@ async function create(wasm: Module, choice: DeviceChoice): Promise<DeviceReport>
 
 async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["estimate"]["response"]> {
   if (engine === undefined) throw new Error("no device was chosen");
-  const files: NamedFile[] = [];
+  const files: InputFile[] = [];
   for (const file of request.files) {
     files.push(await read(file));
     if (cancelled) throw { kind: "cancelled", message: "cancelled" };
@@ -93,12 +94,12 @@ async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["e
 }
 
 async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks["unpack"]["response"]> {
-  const plan = wasm.plan(await Promise.all(files.map(readText)));
+  const plan = wasm.plan(await Promise.all(files.map(readForPlan)));
   if (plan.images.length > 0) return undefined;
   const unpacked: File[] = [];
   const archives: string[] = [];
   for (const file of files) {
-    const archive = wasm.isArchive(file.name, await head(file))
+    const archive = wasm.isArchive(file.name, await bytesOf(file, HEAD))
       ? wasm.Unpacked.open(await read(file))
       : undefined;
     if (archive === undefined) {
@@ -116,27 +117,6 @@ async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks[
     archives.push(file.name);
   }
   return archives.length > 0 ? { files: unpacked, archives } : undefined;
-}
-
-/** The first bytes of a file. */
-async function head(file: StackFile): Promise<Uint8Array> {
-  const length = 512;
-  if (!(file instanceof Blob)) return file.bytes.subarray(0, length);
-  return (await read(new File([file.slice(0, length)], file.name))).bytes;
-}
-
-async function read(file: StackFile): Promise<NamedFile> {
-  if (!(file instanceof Blob)) return file;
-  try {
-    return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
-  } catch (error) {
-    throw { kind: "input", message: `${file.name}: cannot be read: ${failure(error).message}` };
-  }
-}
-
-/** A text with its content, another file with its name only. */
-async function readText(file: StackFile): Promise<NamedFile> {
-  return /\.txt$/i.test(file.name) ? await read(file) : { name: file.name, bytes: new Uint8Array() };
 }
 
 /** The module throws `{ kind, message }`; everything else is a surprise. */

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { basename } from "node:path";
 import { after, before, test } from "node:test";
+import { AVIF_BALLS } from "./support/avif.js";
 import { normalDifference } from "./support/compare.js";
 import { commandResults, goldenStack, greyPng, zipOf } from "./support/files.js";
 import { Page } from "./support/page.js";
@@ -114,6 +115,20 @@ test("what is doubtful is shown before the result, and goes with the photographs
   assert.deepEqual(said, await page.page.locator("#plan li.doubtful").allTextContents());
   await page.page.click("#clear");
   await page.page.waitForSelector("#notices", { state: "hidden" });
+});
+
+test("what only the browser decodes is decoded, and said", async () => {
+  await page.upload(AVIF_BALLS);
+  await page.thumbnails(AVIF_BALLS.length);
+  assert.equal(await page.estimate(), "");
+  const said = await lines("#notices");
+  assert.ok(
+    said.some((line) => /^ball_1\.avif, .*ball_4\.avif: AVIF, decoded by this browser/.test(line)),
+    said.join("\n"),
+  );
+  assert.ok(!said.some((line) => /extension|nothing in the photographs says/.test(line)), said.join("\n"));
+  const { color } = await pagePlan();
+  assert.deepEqual(color, { taken: "srgb", because: "stated" });
 });
 
 test("lights with another handedness: their axes are a setting", async () => {

@@ -37,6 +37,7 @@ mod depth;
 mod error;
 mod estimate;
 mod light;
+mod light_agreement;
 mod mask;
 mod mesh;
 mod metrics;
@@ -64,6 +65,7 @@ pub use error::CoreError;
 pub use estimate::{Estimate, EstimateSettings};
 pub use glam::Vec3;
 pub use light::Light;
+pub use light_agreement::LightAgreement;
 pub use mask::{Mask, MaskGuess, MaskSource};
 pub use mesh::{CornerNormals, MAX_TRIANGLES, TriangleMesh};
 pub use metrics::{

@@ -8,7 +8,8 @@ use crate::plan::{StackPlan, is_helper};
 use crate::shots::ambient::{Ambient, NamedAmbient};
 use crate::turn::turned;
 use crate::{
-    AmbientChoice, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, mask_file, shots,
+    AmbientChoice, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, left_out_lines,
+    mask_file, shots,
 };
 use image::metadata::Orientation;
 use normalight_core::{
@@ -234,6 +235,12 @@ fn most_frequent(turns: &[Orientation]) -> Orientation {
     most.copied().unwrap_or(Orientation::NoTransforms)
 }
 
+/// What a place with too few photographs holds besides, for a message.
+fn besides(plan: &StackPlan) -> String {
+    let lines = left_out_lines(&plan.left_out, false);
+    lines.iter().map(|line| format!("; {line}")).collect()
+}
+
 /// Positions in the plan of the images to read.
 fn pick(
     place: &str,
@@ -256,6 +263,7 @@ fn pick(
             name,
             found,
             expected,
+            besides: besides(plan),
         });
     }
     match wanted {

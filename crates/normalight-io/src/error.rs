@@ -101,13 +101,28 @@ pub enum IoError {
         limit: usize,
     },
     /// Too few images were found in a place.
-    #[error("{name}: {found} image(s) found, at least {expected} are needed")]
+    #[error("{name}: {found} image(s) found, at least {expected} are needed{besides}")]
     TooFewImages {
         /// The folder or list, or "the given files".
         name: String,
         /// Number of images.
         found: usize,
         /// Smallest number that works.
+        expected: usize,
+        /// What there is besides, in words after a semicolon; empty for nothing.
+        besides: String,
+    },
+    /// A folder holds no files at all.
+    #[error(
+        "{name}: found no file in it{}, expected at least {expected} photographs",
+        folders_label(*.folders)
+    )]
+    NothingHere {
+        /// The folder.
+        name: String,
+        /// Folders in it, which hold no photographs either.
+        folders: usize,
+        /// Smallest number of photographs that works.
         expected: usize,
     },
     /// No photographs lie in a folder, but some in folders below it.
@@ -352,6 +367,13 @@ pub enum IoError {
     /// The images or the mask do not fit each other.
     #[error(transparent)]
     Core(#[from] CoreError),
+}
+
+fn folders_label(folders: usize) -> String {
+    match folders {
+        0 => String::new(),
+        folders => format!(" and no photographs in its {folders} folder(s)"),
+    }
 }
 
 fn line_label(line: usize) -> String {

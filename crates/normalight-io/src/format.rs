@@ -72,6 +72,24 @@ pub(crate) fn unread_format(extension: &str) -> Option<&'static str> {
     format.is_picture.then_some(format.name)
 }
 
+/// Whether only a file's content can tell that it is an image that is read: its name promises nothing, or a format of
+/// pictures that is not read. Previews and copies under other extensions are none of the photographs.
+pub(crate) fn may_hold_image(name: &str) -> bool {
+    let extension = split_extension(name).1.to_ascii_lowercase();
+    extension.is_empty() || unread_format(&extension).is_some()
+}
+
+/// Whether bytes begin as an image that is read does. Raw files begin as TIFF files do: a name that promises
+/// another format of pictures outweighs that.
+pub(crate) fn is_image_content(name: &str, head: &[u8]) -> bool {
+    let extension = split_extension(name).1.to_ascii_lowercase();
+    let promised = unread_format(&extension).is_some();
+    unread::of_content(head).is_none()
+        && (image::guess_format(head)
+            .is_ok_and(|format| is_read(format) && !(promised && format == ImageFormat::Tiff))
+            || pfm::is_pfm(head))
+}
+
 /// The error for a file whose extension is that of no image that is read.
 pub(crate) fn not_an_image(name: &str) -> IoError {
     let extension = split_extension(name).1;
@@ -99,7 +117,11 @@ fn words(format: Unread) -> String {
 /// TGA has no mark at its beginning: there the extension decides, unless the content is marked as
 /// another format.
 pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
-    let promised = format_of_extension(name).ok_or_else(|| not_an_image(name))?;
+    let promised = match format_of_extension(name) {
+        Some(promised) => promised,
+        None if is_image_content(name, bytes) => ImageFormat::Png,
+        None => return Err(not_an_image(name)),
+    };
     let found = match (image::guess_format(bytes), unread::of_content(bytes)) {
         // The header of a TGA may begin like anything.
         (_, Some(format)) if promised != ImageFormat::Tga || format.is_picture => words(format),

@@ -1,7 +1,7 @@
 //! What a stack is read from, how, and what comes out.
 use crate::input_plan::LightsDecision;
-use crate::{ColorMode, GivenLights, InputPlan, Limits};
-use normalight_core::{ImageStack, Light, Mask, MaskSource};
+use crate::{ColorMode, GivenLights, InputPlan, Limits, Notice};
+use normalight_core::{ImageStack, Light, LightAgreement, Mask, MaskSource};
 
 /// A file in memory.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,13 +100,22 @@ impl StackInput {
         images.map(|image| image.name.clone()).collect()
     }
 
-    /// Takes lights that were given in a file, and keeps in the plan how they were found.
+    /// Takes lights that were given in a file, one for each photograph, and keeps in the plan how they were found and
+    /// whether the photographs contradict them.
     pub fn accept_lights(&mut self, file: &str, given: GivenLights) -> Vec<Light> {
         self.plan.lights = Some(LightsDecision {
             file: file.to_owned(),
             matched: given.matched,
         });
         self.plan.notices.extend(given.notices);
+        let agreement = LightAgreement::of(&self.stack, &self.mask, &given.lights);
+        if let Some(agreement) = agreement.filter(LightAgreement::contradicts) {
+            let axes = agreement.other_axes.map(|other| given.axes.then(other));
+            self.plan.notices.push(Notice::LightsContradict {
+                file: file.to_owned(),
+                axes: axes.map(|axes| axes.to_string()),
+            });
+        }
         given.lights
     }
 

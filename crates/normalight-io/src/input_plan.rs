@@ -187,6 +187,21 @@ impl fmt::Display for LeftOut {
 }
 
 impl InputPlan {
+    /// Puts notices before all others. Of files that the browser decoded it goes without saying that they are of another
+    /// format than their names.
+    pub fn say_first(&mut self, notices: Vec<Notice>) {
+        let decoded = |name: &str| {
+            notices.iter().any(|notice| {
+                matches!(notice, Notice::DecodedByBrowser { files, .. }
+                    if files.iter().any(|file| file == name))
+            })
+        };
+        self.notices.retain(
+            |notice| !matches!(notice, Notice::ContentOverExtension { file, .. } if decoded(file)),
+        );
+        self.notices.splice(0..0, notices);
+    }
+
     /// In lines for people: a few, or with `all` one that names every photograph, and one for every file left out.
     pub fn lines(&self, all: bool) -> Vec<String> {
         let names = match (all, &self.photographs[..]) {

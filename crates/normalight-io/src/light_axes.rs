@@ -34,6 +34,16 @@ impl LightAxes {
         }
         ours.into()
     }
+
+    /// These axes where what was taken for ours has, for each coordinate, another of our axes or points the other way.
+    pub(crate) fn then(self, other: [(usize, bool); 3]) -> Self {
+        Self {
+            axes: self.axes.map(|(axis, reversed)| {
+                let (to, turned) = other[axis];
+                (to, reversed != turned)
+            }),
+        }
+    }
 }
 
 impl fmt::Display for LightAxes {
@@ -102,6 +112,16 @@ mod tests {
         );
         assert_eq!(turned.to_string().parse(), Ok(turned));
         assert_eq!(LightAxes::default().to_ours(Vec3::X), Vec3::X);
+    }
+
+    #[test]
+    fn axes_follow_each_other() {
+        let first: LightAxes = "x-up,y-in,z-left".parse().unwrap();
+        let other = [(1, true), (0, false), (2, true)];
+        let vector = Vec3::new(1.0, 2.0, 3.0);
+        let between = first.to_ours(vector);
+        let expected = Vec3::new(between.y, -between.x, -between.z);
+        assert_eq!(first.then(other).to_ours(vector), expected);
     }
 
     #[test]

@@ -32,6 +32,8 @@ pub struct GivenLights {
     pub lights: Vec<Light>,
     /// The least sure rule by which a light was matched with its photograph.
     pub matched: NameMatch,
+    /// The axes that the file was taken to have.
+    pub axes: LightAxes,
     /// What is doubtful about them.
     pub notices: Vec<Notice>,
 }
@@ -174,6 +176,7 @@ impl LightFile {
         Ok(GivenLights {
             lights,
             matched,
+            axes: self.axes,
             notices,
         })
     }

@@ -1,5 +1,6 @@
 //! The only part of this crate that touches the file system.
 mod aside;
+mod below;
 mod diligent;
 mod disk;
 mod files;

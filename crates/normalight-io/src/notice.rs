@@ -19,6 +19,13 @@ pub enum Notice {
         /// The extension, without its dot.
         extension: String,
     },
+    /// The browser decoded files of a format that is not read here.
+    DecodedByBrowser {
+        /// The format.
+        format: String,
+        /// The files.
+        files: Vec<String>,
+    },
     /// The files came out of an archive.
     FromArchive {
         /// The archive.
@@ -267,6 +274,13 @@ pub enum Notice {
         behind: usize,
         /// Of how many.
         of: usize,
+    },
+    /// The photographs contradict the lights: the object's outline does not brighten towards them.
+    LightsContradict {
+        /// The light file.
+        file: String,
+        /// Axes of the file under which they would agree, as the setting takes them.
+        axes: Option<String>,
     },
     /// Lights are given as angles.
     LightsAsAngles {

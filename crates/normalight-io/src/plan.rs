@@ -6,7 +6,7 @@ mod list;
 pub(crate) use kinds::is_helper;
 pub use list::find_list;
 
-use crate::format::{base_name, split_extension};
+use crate::format::{base_name, is_image_content, may_hold_image, split_extension};
 use crate::input_plan::{LeftOut, LeftOutReason, Order};
 use crate::names::{NameKey, NameMatch, find, folded, stem};
 use crate::{IoError, Notice};
@@ -49,10 +49,34 @@ pub fn plan_stack<S: AsRef<str>>(
     names: &[S],
     list: Option<(&str, &str)>,
 ) -> Result<StackPlan, IoError> {
+    plan_contents(names, &[], list)
+}
+
+/// Whether a file's content has to tell whether it is an image: its name does not.
+pub fn content_decides(name: &str) -> bool {
+    !kinds::is_helper(name) && may_hold_image(name)
+}
+
+/// As [`plan_stack`], with what the first bytes of files say: their positions and bytes, of those for which
+/// [`content_decides`].
+///
+/// # Errors
+/// Those of [`plan_stack`].
+pub fn plan_contents<S: AsRef<str>>(
+    names: &[S],
+    heads: &[(usize, Vec<u8>)],
+    list: Option<(&str, &str)>,
+) -> Result<StackPlan, IoError> {
     let name = |index: usize| names[index].as_ref();
-    let mut candidates: Vec<usize> = (0..names.len())
-        .filter(|&index| kinds::is_visible_image(name(index)))
+    let told: Vec<usize> = heads
+        .iter()
+        .filter(|(index, head)| {
+            content_decides(name(*index)) && is_image_content(name(*index), head)
+        })
+        .map(|(index, _)| *index)
         .collect();
+    let is_image = |index: usize| kinds::is_visible_image(name(index)) || told.contains(&index);
+    let mut candidates: Vec<usize> = (0..names.len()).filter(|&index| is_image(index)).collect();
     candidates.sort_by(|&a, &b| natord::compare(name(a), name(b)));
     let words = Words::of(candidates.iter().map(|&index| name(index)));
     let beside = best_mask(&candidates, names, &words);
@@ -85,8 +109,10 @@ pub fn plan_stack<S: AsRef<str>>(
     plan.ambient = candidates.iter().copied().find(|&index| {
         !plan.images.contains(&index) && words.reason(name(index)) == Some(LeftOutReason::Ambient)
     });
-    for name in names.iter().map(AsRef::as_ref) {
-        if let Some(reason) = left_out_reason(name) {
+    for (index, name) in names.iter().map(AsRef::as_ref).enumerate() {
+        if let Some(reason) = left_out_reason(name)
+            && !is_image(index)
+        {
             plan.left_out.push(LeftOut::new(name, reason));
         }
         let is_text = split_extension(name).1.eq_ignore_ascii_case("txt");

@@ -1,8 +1,8 @@
 //! Files by name, wherever their bytes are, and the stack in them.
-use crate::archive::Source;
+use crate::archive::{HEAD, Source};
 use crate::assemble::assemble;
 use crate::packed::Packed;
-use crate::plan::{StackPlan, find_list, plan_stack};
+use crate::plan::{StackPlan, content_decides, find_list, plan_contents};
 use crate::text::read_text;
 use crate::{IoError, NamedBytes, ReadOptions, StackInput};
 use normalight_core::MIN_IMAGES;
@@ -23,13 +23,15 @@ pub(crate) trait FileSource {
 
     /// The bytes of a file, which are handed out once.
     fn take(&mut self, index: usize) -> Result<Vec<u8>, IoError>;
+
+    /// The first bytes of a file, at most `length`; none where they cannot be had without the rest.
+    fn head(&mut self, _index: usize, _length: usize) -> Result<Vec<u8>, IoError> {
+        Ok(Vec::new())
+    }
 }
 
 /// Files that archives may be among.
 pub(crate) trait LooseFiles: FileSource {
-    /// The first bytes of a file that can be opened again, at most `length`.
-    fn head(&mut self, index: usize, length: usize) -> Result<Vec<u8>, IoError>;
-
     /// A file to be read piece by piece, which is handed out once.
     fn open(&mut self, index: usize) -> Result<Box<dyn Source>, IoError>;
 
@@ -67,14 +69,14 @@ impl FileSource for MemoryFiles {
     fn take(&mut self, index: usize) -> Result<Vec<u8>, IoError> {
         Ok(std::mem::take(&mut self.contents[index]))
     }
-}
 
-impl LooseFiles for MemoryFiles {
     fn head(&mut self, index: usize, length: usize) -> Result<Vec<u8>, IoError> {
         let bytes = &self.contents[index];
         Ok(bytes[..bytes.len().min(length)].to_vec())
     }
+}
 
+impl LooseFiles for MemoryFiles {
     fn open(&mut self, index: usize) -> Result<Box<dyn Source>, IoError> {
         Ok(Box::new(Cursor::new(self.take(index)?)))
     }
@@ -119,8 +121,16 @@ impl Planned {
         let names = files.names().to_vec();
         let list = find_list(&names, |index| files.text(index))?;
         let list = list.map(|(index, text)| (files.label(index), text));
-        let plan = plan_stack(
+        let mut heads = Vec::new();
+        for (index, name) in names.iter().enumerate() {
+            if content_decides(name) {
+                // What cannot be read is left out like any other file that is no image.
+                heads.push((index, files.head(index, HEAD).unwrap_or_default()));
+            }
+        }
+        let plan = plan_contents(
             &names,
+            &heads,
             list.as_ref()
                 .map(|(name, text)| (name.as_str(), text.as_str())),
         )?;

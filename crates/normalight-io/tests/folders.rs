@@ -177,6 +177,45 @@ fn photographs_one_folder_down_are_found_and_said() {
         "{error}"
     );
     assert!(read_paths(&[place.path().join("jpeg-exports")], &options).is_ok());
+    let deeper = place.path().join("sessions/first");
+    write_files(&deeper, &exports).unwrap();
+    let error = read_paths(&[place.path().to_owned()], &options).unwrap_err();
+    assert!(
+        matches!(&error, IoError::PhotographsBelow { below, .. } if below == "3 in jpeg-exports, 3 in sessions/first"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_empty_folder_says_what_is_in_it() {
+    let place = tempfile::tempdir().unwrap();
+    let said = || {
+        let error = read_paths(&[place.path().to_owned()], &ReadOptions::default()).unwrap_err();
+        let name = format!("{}: ", place.path().display());
+        error.to_string().replace(&name, "")
+    };
+    assert_eq!(
+        said(),
+        "found no file in it, expected at least 3 photographs"
+    );
+    std::fs::create_dir_all(place.path().join("a/b")).unwrap();
+    assert_eq!(
+        said(),
+        "found no file in it and no photographs in its 1 folder(s), expected at least 3 photographs"
+    );
+    write_files(
+        place.path(),
+        &[
+            ("1.png", shaded_png(16, 12, 8)),
+            ("normal.png", shaded_png(16, 12, 8)),
+        ],
+    )
+    .unwrap();
+    let error = said();
+    assert!(
+        error.starts_with("1 image(s) found, at least 3 are needed; left out: normal.png (a map"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -188,4 +227,30 @@ fn an_odd_name_is_said() {
     assert!(input.plan.notices.contains(&Notice::OddName {
         file: "panorama.png".into()
     }));
+}
+
+/// Pictures under an extension of another format of pictures, or under none, as after a conversion or a rescue of files.
+#[test]
+fn content_tells_images_where_the_name_does_not() {
+    for name in [
+        |k: u32| format!("IMG_{k}.heic"),
+        |k| format!("IMG_{k}.CR2"),
+        |k| format!("IMG_{k}"),
+    ] {
+        let mut files = shots(name);
+        files.push(file("notes", b"a text".to_vec()));
+        files.push(file("IMG_1.THM", shaded_png(16, 12, 8)));
+        files.push(file("IMG_2.dng", [b"II*\0".as_slice(), &[0; 400]].concat()));
+        let input = read(files).unwrap();
+        assert_eq!(input.file_names, (1..=5).map(name).collect::<Vec<_>>());
+        let told = |notice: &&Notice| matches!(notice, Notice::ContentOverExtension { content, .. } if content == "PNG");
+        assert_eq!(input.plan.notices.iter().filter(told).count(), 5);
+        let left: Vec<&str> = input
+            .plan
+            .left_out
+            .iter()
+            .map(|left| left.file.as_str())
+            .collect();
+        assert_eq!(left, ["notes", "IMG_1.THM", "IMG_2.dng"]);
+    }
 }

@@ -1,7 +1,7 @@
 //! The pipeline, bound to a device.
 use crate::callback::{ProgressCallback, ProgressObserver};
 use crate::error::Failure;
-use crate::file::{InputFile, named_bytes};
+use crate::file::{InputFile, decoded_by_browser, named_bytes};
 use crate::result::{Estimated, Run};
 use crate::settings::Settings;
 use burn::tensor::Device;
@@ -66,7 +66,9 @@ impl Engine {
             .await
             .ok_or(Failure::Cancelled)?;
         let reading = settings.reading(mask.map(NamedBytes::from));
+        let decoded = decoded_by_browser(&files);
         let mut input = read_stack(named_bytes(files), &reading)?;
+        input.plan.say_first(decoded);
         let lights = lights.map(NamedBytes::from);
         let given = match &lights {
             Some(NamedBytes { name, bytes }) => {

@@ -1,14 +1,15 @@
 //! Files as they come in and go out.
 use js_sys::Uint8Array;
-use normalight_io::NamedBytes;
+use normalight_io::{NamedBytes, Notice};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use tsify::Tsify;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = "
-/** A file in memory. */
-export interface InputFile { readonly name: string; readonly bytes: Uint8Array }
+/** A file in memory; `decodedFrom` says which format the browser made its PNG of. */
+export interface InputFile { readonly name: string; readonly bytes: Uint8Array; readonly decodedFrom?: string }
 ";
 
 #[wasm_bindgen]
@@ -22,6 +23,21 @@ extern "C" {
 
     #[wasm_bindgen(method, getter)]
     fn bytes(this: &InputFile) -> Vec<u8>;
+
+    #[wasm_bindgen(method, getter, js_name = decodedFrom)]
+    fn decoded_from(this: &InputFile) -> Option<String>;
+}
+
+/// What there is to say of files that the browser decoded, one notice for each format.
+pub(crate) fn decoded_by_browser(files: &[InputFile]) -> Vec<Notice> {
+    let mut formats: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for file in files {
+        if let Some(format) = file.decoded_from() {
+            formats.entry(format).or_default().push(file.name());
+        }
+    }
+    let notice = |(format, files)| Notice::DecodedByBrowser { format, files };
+    formats.into_iter().map(notice).collect()
 }
 
 impl From<InputFile> for NamedBytes {

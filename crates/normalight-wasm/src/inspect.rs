@@ -3,8 +3,8 @@ use crate::error::Failure;
 use crate::file::{InputFile, named_bytes};
 use js_sys::Uint8Array;
 use normalight_io::{
-    ColorMode, LeftOut, NamedBytes, Notice, decode_image, find_list, left_out_lines, notice_lines,
-    plan_stack, read_text,
+    ColorMode, LeftOut, NamedBytes, Notice, content_decides, decode_image, find_list,
+    left_out_lines, notice_lines, plan_contents, read_text,
 };
 use serde::Serialize;
 use tsify::{Ts, Tsify};
@@ -40,8 +40,9 @@ pub struct Thumbnail {
     rgba: Uint8Array,
 }
 
-/// Which of the files are the images, in which order, and which is the mask. Only names count, and
-/// the content of text files: the bytes of other files may be left out.
+/// Which of the files are the images, in which order, and which is the mask. Names count, the content of
+/// text files, and where a name does not tell whether it is an image (see `contentDecides`) the first bytes: the others may be
+/// left out.
 ///
 /// # Errors
 /// A list among the files that is wrong or too long.
@@ -56,7 +57,14 @@ pub fn plan(files: Vec<InputFile>) -> Result<Ts<Plan>, Failure> {
     let list = list
         .as_ref()
         .map(|(index, text)| (names[*index], text.as_str()));
-    let plan = plan_stack(&names, list)?;
+    let told = |&(_, file): &(usize, &NamedBytes)| content_decides(&file.name);
+    let heads: Vec<(usize, Vec<u8>)> = files
+        .iter()
+        .enumerate()
+        .filter(told)
+        .map(|(index, file)| (index, file.bytes.clone()))
+        .collect();
+    let plan = plan_contents(&names, &heads, list)?;
     let words = [
         left_out_lines(&plan.left_out, false),
         notice_lines(&plan.notices),

@@ -1,6 +1,6 @@
 //! Files on a disk, as an input.
+use super::below::look_below;
 use super::files::{display, file_name, read_error, read_file};
-use super::read::look_below;
 use crate::IoError;
 use crate::archive::Source;
 use crate::limits::Limits;
@@ -54,9 +54,7 @@ impl FileSource for DiskFiles {
     fn take(&mut self, index: usize) -> Result<Vec<u8>, IoError> {
         read_file(&self.paths[index], self.limits.file_bytes)
     }
-}
 
-impl LooseFiles for DiskFiles {
     fn head(&mut self, index: usize, length: usize) -> Result<Vec<u8>, IoError> {
         let path = &self.paths[index];
         let mut head = Vec::new();
@@ -68,7 +66,9 @@ impl LooseFiles for DiskFiles {
         }
         Ok(head)
     }
+}
 
+impl LooseFiles for DiskFiles {
     fn open(&mut self, index: usize) -> Result<Box<dyn Source>, IoError> {
         let path = &self.paths[index];
         let file = File::open(path).map_err(|reason| read_error(path, reason))?;

@@ -4,7 +4,7 @@ use super::files::{display, read_error};
 use crate::archive::{Archive, ArchiveKind, HEAD, ReadLimits};
 use crate::limits::Limits;
 use crate::packed::Packed;
-use crate::source::LooseFiles;
+use crate::source::{FileSource, LooseFiles};
 use crate::{IoError, ReadOptions, StackInput};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -2,12 +2,11 @@ use super::disk::DiskFiles;
 use super::files::{display, file_name, read_error, read_file};
 use super::inside::read_folder_inside;
 use crate::archive::{ArchiveKind, HEAD};
-use crate::format::{READ_FORMATS, format_of_extension, not_an_image};
+use crate::format::{READ_FORMATS, format_of_extension, is_image_content, not_an_image};
 use crate::light_file::GivenLights;
 use crate::light_file::LightFile;
 use crate::limits::MAX_TEXT_BYTES;
-use crate::plan::plan_stack;
-use crate::source::{LooseFiles, read_files};
+use crate::source::{FileSource, read_files};
 use crate::{IoError, LightAxes, ReadOptions, StackInput};
 use normalight_core::Light;
 use std::fs;
@@ -48,10 +47,12 @@ pub fn read_paths(paths: &[PathBuf], options: &ReadOptions) -> Result<StackInput
     let mut files = DiskFiles::new(paths.to_vec(), options.limits);
     for (index, path) in paths.iter().enumerate() {
         let name = display(path);
+        let head = files.head(index, HEAD)?;
         // The name of an archive promises enough: what is wrong with it is said when it is opened.
         let is_known = format_of_extension(&name).is_some()
             || ArchiveKind::of_extension(&name).is_some()
-            || ArchiveKind::of_content(&files.head(index, HEAD)?).is_some();
+            || is_image_content(&name, &head)
+            || ArchiveKind::of_content(&head).is_some();
         if !is_known {
             return Err(not_an_image(&name));
         }
@@ -72,36 +73,6 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
     paths.sort();
     let files = DiskFiles::of_folder(folder.to_owned(), paths, options.limits);
     read_files(Some(&display(folder)), Box::new(files), options)
-}
-
-/// Where photographs lie one folder down, which is how projects of RTI programs are laid out.
-pub(super) fn look_below(folder: &Path) -> Result<(), IoError> {
-    let mut below = Vec::new();
-    let failed = |reason| read_error(folder, reason);
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let Ok(entries) = fs::read_dir(&path) else {
-            continue;
-        };
-        let names: Vec<String> = entries
-            .flatten()
-            .filter(|entry| entry.path().is_file())
-            .map(|entry| file_name(&entry.path()))
-            .collect();
-        // A list there may be wrong: that is said when the folder is given.
-        let photographs = plan_stack(&names, None).map_or(0, |plan| plan.images.len());
-        if photographs > 0 {
-            below.push(format!("{photographs} in {}", file_name(&path)));
-        }
-    }
-    if below.is_empty() {
-        return Ok(());
-    }
-    below.sort();
-    Err(IoError::PhotographsBelow {
-        name: display(folder),
-        below: below.join(", "),
-    })
 }
 
 /// Reads a light file, see [`read_lights`](crate::read_lights); `light_directions.txt` is completed

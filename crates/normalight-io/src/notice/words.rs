@@ -15,9 +15,17 @@ pub(crate) fn some_names(names: &[String]) -> String {
 impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::ContentOverExtension { file, content, extension } if extension.is_empty() => {
+                write!(f, "{file}: has no extension; read as {content}, which its content is")
+            }
             Self::ContentOverExtension { file, content, extension } => write!(
                 f,
                 "{file}: the content is {content} though the extension is {extension:?}; read as {content}"
+            ),
+            Self::DecodedByBrowser { format, files } => write!(
+                f,
+                "{}: {format}, decoded by this browser as 8 bits sRGB",
+                some_names(files)
             ),
             Self::FromArchive { archive, folder } if folder.is_empty() => {
                 write!(f, "{archive}: an archive, read without unpacking it to the disk")
@@ -197,6 +205,14 @@ impl fmt::Display for Notice {
             Self::LightsBehind { file, behind, of } => write!(
                 f,
                 "{file}: {behind} of {of} lights lie behind the object (negative z)"
+            ),
+            Self::LightsContradict { file, axes: Some(axes) } => write!(
+                f,
+                "{file}: the photographs contradict these lights, since the outline of the object does not brighten towards them; it would if their axes were {axes} (--light-axes)"
+            ),
+            Self::LightsContradict { file, axes: None } => write!(
+                f,
+                "{file}: the photographs contradict these lights, since the outline of the object does not brighten towards them; look whether each belongs to its photograph, and how their axes point (--light-axes)"
             ),
             Self::LightsAsAngles { file, unit } => write!(
                 f,
