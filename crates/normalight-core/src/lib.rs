@@ -36,6 +36,7 @@ mod calibrated;
 mod depth;
 mod error;
 mod estimate;
+mod intensities;
 mod light;
 mod light_agreement;
 mod mask;
@@ -64,6 +65,7 @@ pub use depth::{
 pub use error::CoreError;
 pub use estimate::{Estimate, EstimateSettings};
 pub use glam::Vec3;
+pub use intensities::intensities_from_directions;
 pub use light::Light;
 pub use light_agreement::LightAgreement;
 pub use mask::{Mask, MaskGuess, MaskSource};

@@ -3,10 +3,10 @@ use crate::color::decision;
 use crate::decode::{Stored, decode_stored, turned_mask};
 use crate::format::{base_name, is_foreign, not_an_image};
 use crate::input::mask_label;
-use crate::input_plan::InputPlan;
+use crate::input_plan::{InputPlan, LeftOut, LeftOutReason};
 use crate::plan::{StackPlan, is_helper};
 use crate::shots::ambient::{Ambient, NamedAmbient};
-use crate::turn::turned;
+use crate::turn::{swaps_sides, turned};
 use crate::{
     AmbientChoice, IoError, Limits, MaskChoice, Notice, ReadOptions, StackInput, left_out_lines,
     mask_file, shots,
@@ -22,6 +22,10 @@ const SURE: f32 = 0.8;
 /// The decoded photographs and what was found out on the way.
 struct Shots {
     images: Vec<StackImage>,
+    /// Their positions in the plan.
+    picked: Vec<usize>,
+    /// Those of another size.
+    left_out: Vec<LeftOut>,
     /// What each file says about its samples.
     stated: Vec<Option<String>>,
     alpha: Option<Mask>,
@@ -39,6 +43,7 @@ pub(crate) fn assemble(
     let mut picked = pick(place, names, &plan, options.images)?;
     let file_names = shown_names(names, &plan);
     let shots = read_shots(names, &plan, &picked, options, &mut load)?;
+    picked.clone_from(&shots.picked);
     let mut notices = plan.notices.clone();
     notices.extend(shots.notices);
     let mut images = shots.images;
@@ -117,13 +122,15 @@ pub(crate) fn assemble(
             &mut notices,
         )?;
     }
+    let mut left_out = plan.left_out;
+    left_out.extend(shots.left_out);
     if !plan.benchmark {
+        left_out.extend(shots::dark::settle(&mut stack, &mask, &mut picked)?);
         notices.extend(shots::check(&stack, &mask)?);
     }
     if !plan.benchmark || options.align {
         aligned = shots::motion::settle(&mut stack, &mut mask, options.align, &mut notices)?;
     }
-    let mut left_out = plan.left_out;
     left_out.extend(ambient.left_out);
     if let Some(file) = &ambient.subtracted {
         left_out.retain(|left| base_name(&left.file) != file);
@@ -202,8 +209,41 @@ fn read_shots(
         turns.push(orientation);
         notices.extend(more);
     }
-    let orientation = agreed(&turns).unwrap_or(Orientation::NoTransforms);
-    if agreed(&turns).is_none() {
+    let mut picked = picked.to_vec();
+    let upright = upright_alone(&images, &turns);
+    let left_out = match upright {
+        true => Vec::new(),
+        false => {
+            let odd = of_other_size(&images);
+            let mut left_out = Vec::new();
+            for &place in odd.iter().rev() {
+                let image = images.remove(place);
+                // The transparency that counts is the first one's.
+                if place == 0 {
+                    alpha = None;
+                }
+                picked.remove(place);
+                stated.remove(place);
+                turns.remove(place);
+                let size = [image.width, image.height];
+                let reason = LeftOutReason::OtherSize { size };
+                left_out.insert(0, LeftOut::new(&image.name, reason));
+            }
+            left_out
+        }
+    };
+    if upright {
+        images = images
+            .into_iter()
+            .zip(&turns)
+            .map(|(image, &turn)| turned(image, turn))
+            .collect();
+    }
+    let orientation = match upright {
+        true => Orientation::NoTransforms,
+        false => agreed(&turns).unwrap_or(Orientation::NoTransforms),
+    };
+    if !upright && agreed(&turns).is_none() {
         let usual = most_frequent(&turns);
         let odd = images
             .iter()
@@ -218,10 +258,43 @@ fn read_shots(
             .into_iter()
             .map(|image| turned(image, orientation))
             .collect(),
+        picked,
+        left_out,
         alpha: alpha.map(|mask| turned_mask(mask, orientation)),
         stated,
         notices,
     })
+}
+
+/// Whether the photographs are of one size only when each is turned upright.
+fn upright_alone(images: &[StackImage], turns: &[Orientation]) -> bool {
+    let one = |sizes: Vec<[usize; 2]>| sizes.windows(2).all(|pair| pair[0] == pair[1]);
+    let stored = images.iter().map(|image| [image.width, image.height]);
+    let upright = images
+        .iter()
+        .zip(turns)
+        .map(|(image, &turn)| match swaps_sides(turn) {
+            true => [image.height, image.width],
+            false => [image.width, image.height],
+        });
+    !one(stored.collect()) && one(upright.collect())
+}
+
+/// Positions of photographs that have another size than most, where enough have that of most: one odd one shall not
+/// stop all others, wherever it lies.
+fn of_other_size(images: &[StackImage]) -> Vec<usize> {
+    let size = |image: &StackImage| [image.width, image.height];
+    let count = |wanted: [usize; 2]| images.iter().filter(|image| size(image) == wanted).count();
+    let Some(usual) = images.iter().map(size).max_by_key(|&size| count(size)) else {
+        return Vec::new();
+    };
+    if count(usual) < MIN_IMAGES.max(3 * images.len() / 4) {
+        return Vec::new();
+    }
+    let odd = images.iter().enumerate();
+    odd.filter(|(_, image)| size(image) != usual)
+        .map(|(place, _)| place)
+        .collect()
 }
 
 fn agreed(turns: &[Orientation]) -> Option<Orientation> {

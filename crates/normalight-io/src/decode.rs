@@ -123,6 +123,15 @@ pub(crate) fn decode_stored(
         (Statement::Nothing, Samples::U8(_)) => (samples, Transfer::Srgb),
         _ => statement.apply(samples, channels),
     };
+    if let Samples::F32(values) = &mut samples {
+        let samples = tame_nan(values);
+        if samples > 0 {
+            notices.push(Notice::NotNumbers {
+                file: name.to_owned(),
+                samples,
+            });
+        }
+    }
     if let Samples::F32(values) = &mut samples
         && let Some(samples) = tame_infinite(values)
     {
@@ -166,8 +175,18 @@ fn taken(color: ColorMode, format: ImageFormat, samples: &Samples, said: Stateme
     }
 }
 
+/// What is not a number becomes 0; how many there were. Renderers and stitchers write it where there is nothing.
+fn tame_nan(values: &mut [f32]) -> usize {
+    let mut count = 0;
+    for value in values.iter_mut().filter(|value| value.is_nan()) {
+        *value = 0.0;
+        count += 1;
+    }
+    count
+}
+
 /// Infinite values become the largest finite one, or 0 below all; their number, when there were
-/// any. What is not a number stays, and is refused with the stack: nobody knows what it stands for.
+/// any.
 fn tame_infinite(values: &mut [f32]) -> Option<usize> {
     let largest = values.iter().copied().filter(|value| value.is_finite());
     let largest = largest.fold(0.0, f32::max);

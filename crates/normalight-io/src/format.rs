@@ -119,7 +119,7 @@ fn words(format: Unread) -> String {
 pub(crate) fn detect_format(name: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
     let promised = match format_of_extension(name) {
         Some(promised) => promised,
-        None if is_image_content(name, bytes) => ImageFormat::Png,
+        None if may_hold_image(name) && is_image_content(name, bytes) => ImageFormat::Png,
         None => return Err(not_an_image(name)),
     };
     let found = match (image::guess_format(bytes), unread::of_content(bytes)) {

@@ -1,7 +1,9 @@
 //! What a stack is read from, how, and what comes out.
 use crate::input_plan::LightsDecision;
 use crate::{ColorMode, GivenLights, InputPlan, Limits, Notice};
-use normalight_core::{ImageStack, Light, LightAgreement, Mask, MaskSource};
+use normalight_core::{
+    ImageStack, Light, LightAgreement, Mask, MaskSource, intensities_from_directions,
+};
 
 /// A file in memory.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,9 +108,21 @@ impl StackInput {
         self.plan.lights = Some(LightsDecision {
             file: file.to_owned(),
             matched: given.matched,
+            intensities: given.intensities.clone(),
         });
         self.plan.notices.extend(given.notices);
-        let agreement = LightAgreement::of(&self.stack, &self.mask, &given.lights);
+        let mut lights = given.lights;
+        if given.intensities.is_none() {
+            let found = intensities_from_directions(&self.stack, &self.mask, &lights);
+            for (light, found) in lights.iter_mut().zip(found.iter().flatten()) {
+                light.intensity = [*found; 3];
+            }
+            self.plan.notices.push(Notice::LightsWithoutIntensity {
+                file: file.to_owned(),
+                found: found.is_some(),
+            });
+        }
+        let agreement = LightAgreement::of(&self.stack, &self.mask, &lights);
         if let Some(agreement) = agreement.filter(LightAgreement::contradicts) {
             let axes = agreement.other_axes.map(|other| given.axes.then(other));
             self.plan.notices.push(Notice::LightsContradict {
@@ -116,7 +130,7 @@ impl StackInput {
                 axes: axes.map(|axes| axes.to_string()),
             });
         }
-        given.lights
+        lights
     }
 
     /// Where the mask came from, in words or by its file name: for people and for the report.

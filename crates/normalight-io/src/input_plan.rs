@@ -84,6 +84,10 @@ pub enum LeftOutReason {
         /// Its width and height.
         size: [usize; 2],
     },
+    /// Alone among the photographs, its name is unlike theirs.
+    UnlikeNames,
+    /// It is black, or nearly: it shows no light to speak of.
+    TooDark,
     /// A photograph in a format that is not read.
     UnreadFormat {
         /// The format.
@@ -109,6 +113,10 @@ impl fmt::Display for LeftOutReason {
             Self::ShowsNoLamp => f.write_str("without lamp, by what it shows"),
             Self::Map { word } => write!(f, "a map, by the word {word:?} in its name"),
             Self::NotListed => f.write_str("not in the list"),
+            Self::UnlikeNames => {
+                f.write_str("named unlike the photographs; a list of names takes it in")
+            }
+            Self::TooDark => f.write_str("black, or nearly"),
             Self::OtherSize {
                 size: [width, height],
             } => {
@@ -177,6 +185,8 @@ pub struct LightsDecision {
     pub file: String,
     /// The least sure rule that matched a light.
     pub matched: NameMatch,
+    /// The file that says how bright the lights are; none for directions alone.
+    pub intensities: Option<String>,
 }
 
 /// A file and why it is left out.
@@ -218,8 +228,18 @@ impl InputPlan {
             format!("mask: {}", self.mask),
             format!("colour: {} ({})", self.color.taken, self.color.because),
         ];
-        if let Some(LightsDecision { file, matched }) = &self.lights {
-            lines.push(format!("lights: {file}, matched by {matched}"));
+        if let Some(LightsDecision {
+            file,
+            matched,
+            intensities,
+        }) = &self.lights
+        {
+            let beside = intensities.as_ref().filter(|beside| *beside != file);
+            let beside = beside.map(|beside| format!(", with the intensities in {beside}"));
+            lines.push(format!(
+                "lights: {file}{}, matched by {matched}",
+                beside.unwrap_or_default()
+            ));
         }
         if let Some(file) = &self.ambient {
             lines.push(format!("room light: that of {file}, subtracted"));
@@ -231,6 +251,7 @@ impl InputPlan {
             )),
             None => (),
         }
+        let mut lines: Vec<String> = lines.iter().map(|line| on_one_line(line)).collect();
         lines.extend(left_out_lines(&self.left_out, all));
         lines.extend(notice_lines(&self.notices));
         lines
@@ -241,7 +262,8 @@ impl InputPlan {
 pub fn left_out_lines(files: &[LeftOut], all: bool) -> Vec<String> {
     // Helper files are nobody's concern.
     let told = |left: &&LeftOut| all || left.reason != LeftOutReason::System;
-    let files: Vec<String> = files.iter().filter(told).map(LeftOut::to_string).collect();
+    let label = |left: &LeftOut| on_one_line(&left.to_string());
+    let files: Vec<String> = files.iter().filter(told).map(label).collect();
     match (all, files.is_empty()) {
         (_, true) => Vec::new(),
         (true, false) => files
@@ -252,10 +274,32 @@ pub fn left_out_lines(files: &[LeftOut], all: bool) -> Vec<String> {
     }
 }
 
-/// What is said about what is doubtful, a line for each.
+/// What is said about what is doubtful: a line for each, or one for the same about several files.
 pub fn notice_lines(notices: &[Notice]) -> Vec<String> {
-    let line = |notice: &Notice| format!("notice: {notice}");
-    notices.iter().map(line).collect()
+    let mut said: Vec<(Vec<String>, String)> = Vec::new();
+    for notice in notices.iter().map(Notice::to_string) {
+        let Some((file, words)) = notice.split_once(": ") else {
+            said.push((Vec::new(), notice));
+            continue;
+        };
+        match said
+            .iter_mut()
+            .find(|(files, same)| !files.is_empty() && same == words)
+        {
+            Some((files, _)) => files.push(file.to_owned()),
+            None => said.push((vec![file.to_owned()], words.to_owned())),
+        }
+    }
+    let line = |(files, words): (Vec<String>, String)| match files.is_empty() {
+        true => on_one_line(&format!("notice: {words}")),
+        false => on_one_line(&format!("notice: {}: {words}", some_names(&files))),
+    };
+    said.into_iter().map(line).collect()
+}
+
+/// A text whose ends of lines, which names may hold, are written out.
+fn on_one_line(text: &str) -> String {
+    text.replace('\n', "\\n").replace('\r', "\\r")
 }
 
 impl fmt::Display for InputPlan {

@@ -12,6 +12,7 @@ pub(crate) struct LightRow {
     pub(crate) file: Option<String>,
     /// Not zero, not yet of unit length, in the file's axes.
     pub(crate) vector: Vec3,
+    /// 1 where the file says nothing.
     pub(crate) intensity: [f32; 3],
     pub(crate) confidence: f32,
 }
@@ -22,6 +23,8 @@ pub(crate) struct LightFile {
     pub(crate) name: String,
     pub(crate) rows: Vec<LightRow>,
     pub(crate) axes: LightAxes,
+    /// The file that says how bright the lights are: this one or one beside it.
+    pub(crate) intensities: Option<String>,
     pub(crate) notices: Vec<Notice>,
 }
 
@@ -34,8 +37,16 @@ pub struct GivenLights {
     pub matched: NameMatch,
     /// The axes that the file was taken to have.
     pub axes: LightAxes,
+    /// The file that says how bright the lights are; `None` for directions alone.
+    pub intensities: Option<String>,
     /// What is doubtful about them.
     pub notices: Vec<Notice>,
+}
+
+/// Whether bytes are no text in any of the encodings that are read.
+fn is_binary(bytes: &[u8]) -> bool {
+    let wide = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
+    !wide && bytes.contains(&0)
 }
 
 impl LightFile {
@@ -44,6 +55,7 @@ impl LightFile {
             name: name.to_owned(),
             rows: Vec::new(),
             axes: LightAxes::default(),
+            intensities: None,
             notices: Vec::new(),
         };
         if let Some(rows) = light_array::parse(name, bytes) {
@@ -53,6 +65,7 @@ impl LightFile {
         if let Some(table) = light_table::parse(name, &read_text(name, bytes)?) {
             let table = table?;
             file.rows = table.rows;
+            file.intensities = table.intensities.then(|| name.to_owned());
             if let Some(unit) = table.angles {
                 file.notices.push(Notice::LightsAsAngles {
                     file: name.to_owned(),
@@ -72,6 +85,14 @@ impl LightFile {
     fn parse_lines(&mut self, bytes: &[u8]) -> Result<(), IoError> {
         let name = &self.name;
         let is_table = split_extension(name).1.eq_ignore_ascii_case("csv");
+        if is_binary(bytes) {
+            return Err(wrong_line(
+                name,
+                0,
+                "content that is no text",
+                "a text of lights (.lp, a table, lines of x y z) or an array as numpy saves it (.npy)",
+            ));
+        }
         let lines = parse_rows(name, bytes).map_err(|error| match error {
             IoError::LightFormat { line: 1, found, .. } if is_table => {
                 wrong_line(name, 1, &found, light_table::HEADING)
@@ -82,6 +103,7 @@ impl LightFile {
             let (vector, intensity) = match row.numbers[..] {
                 [x, y, z] => ([x, y, z], [1.0; 3]),
                 [x, y, z, grey] if row.file.is_some() => ([x, y, z], [grey; 3]),
+                [x, y, z, grey, _] if row.file.is_some() => ([x, y, z], [grey; 3]),
                 [x, y, z, r, g, b] => ([x, y, z], [r, g, b]),
                 _ => return Err(row.wrong(name, "the three numbers x y z")),
             };
@@ -91,6 +113,9 @@ impl LightFile {
             }
             if !intensity.into_iter().all(is_intensity) {
                 return Err(row.wrong(name, "intensities above zero and below 1e30"));
+            }
+            if row.numbers.len() > 3 {
+                self.intensities = Some(name.clone());
             }
             self.rows.push(LightRow {
                 file: row.file.clone(),
@@ -177,6 +202,7 @@ impl LightFile {
             lights,
             matched,
             axes: self.axes,
+            intensities: self.intensities.clone(),
             notices,
         })
     }

@@ -19,11 +19,14 @@ const FILE: &[&str] = &[
     "img",
     "photo",
 ];
-const X: &[&str] = &["x", "lx", "dx", "light x", "dir x"];
-const Y: &[&str] = &["y", "ly", "dy", "light y", "dir y"];
-const Z: &[&str] = &["z", "lz", "dz", "light z", "dir z"];
+const X: &[&str] = &["x", "lx", "dx", "light x", "dir x", "direction x"];
+const Y: &[&str] = &["y", "ly", "dy", "light y", "dir y", "direction y"];
+const Z: &[&str] = &["z", "lz", "dz", "light z", "dir z", "direction z"];
 const INTENSITY: &[&str] = &["intensity", "brightness"];
 const CONFIDENCE: &[&str] = &["confidence"];
+const NUMBER: &[&str] = &[
+    "number", "nr", "no", "no.", "idx", "index", "id", "i", "n", "", "light", "lamp",
+];
 const AZIMUTH: &[&str] = &["azimuth", "azimut", "az", "phi"];
 const ELEVATION: &[&str] = &["elevation", "altitude", "elev", "el"];
 const ZENITH: &[&str] = &["zenith", "polar", "inclination", "theta"];
@@ -39,6 +42,8 @@ enum Direction {
 /// The rows of a table.
 pub(crate) struct Table {
     pub(crate) rows: Vec<LightRow>,
+    /// Whether a column says how bright the lights are.
+    pub(crate) intensities: bool,
     /// The unit of the angles, when there were any.
     pub(crate) angles: Option<&'static str>,
 }
@@ -81,6 +86,11 @@ fn word(text: &str) -> String {
 
 /// `None` when the first line is no heading.
 pub(crate) fn parse(name: &str, text: &str) -> Option<Result<Table, IoError>> {
+    // Spreadsheets say first what parts the columns.
+    let hint = text
+        .split_once('\n')
+        .filter(|(first, _)| first.to_ascii_lowercase().starts_with("sep="));
+    let text = hint.map_or(text, |(_, rest)| rest);
     let first = text.lines().find(|line| !line.trim().is_empty())?;
     let delimiter = [b';', b'\t', b',']
         .into_iter()
@@ -168,7 +178,8 @@ fn table(
         if !(0.0..=1.0).contains(&confidence) {
             return Err(wrong(confidence, "a confidence in 0..1"));
         }
-        let file = columns.place(FILE).and_then(|place| record.get(place));
+        let file = columns.place(FILE).or_else(|| columns.place(NUMBER));
+        let file = file.and_then(|place| record.get(place));
         rows.push(LightRow {
             file: file.filter(|file| !file.is_empty()).map(str::to_owned),
             vector,
@@ -176,6 +187,29 @@ fn table(
             confidence,
         });
     }
+    if columns.place(FILE).is_none() {
+        by_running_number(&mut rows);
+    }
     let angles = radians.map(|radians| if radians { "radians" } else { "degrees" });
-    Ok(Table { rows, angles })
+    Ok(Table {
+        rows,
+        intensities: columns.place(INTENSITY).is_some(),
+        angles,
+    })
+}
+
+/// Numbers that run from 0 or 1 are places in the order of the photographs; others may be in their names.
+fn by_running_number(rows: &mut Vec<LightRow>) {
+    let numbers = rows.iter().map(|row| row.file.as_deref()?.parse().ok());
+    let Some(numbers) = numbers.collect::<Option<Vec<usize>>>() else {
+        return;
+    };
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by_key(|&row| numbers[row]);
+    let first = order.first().map_or(0, |&row| numbers[row]);
+    let runs = |(place, &row): (usize, &usize)| numbers[row] == first + place;
+    if first <= 1 && order.iter().enumerate().all(runs) {
+        *rows = order.into_iter().map(|row| rows[row].clone()).collect();
+        rows.iter_mut().for_each(|row| row.file = None);
+    }
 }

@@ -49,7 +49,7 @@ fn drop_running_numbers(rows: &mut Vec<Row>) {
         return;
     };
     let numbered = |row: &Row| row.file.is_none() && row.numbers.len() == width;
-    if !matches!(width, 2 | 4) || !rows.iter().all(numbered) {
+    if !matches!(width, 2 | 4 | 7) || !rows.iter().all(numbered) {
         return;
     }
     let mut order: Vec<usize> = (0..rows.len()).collect();
@@ -101,7 +101,9 @@ fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
     let mut rows = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();
-        if line.is_empty() || line.starts_with(['#', '%']) {
+        // Spreadsheets say first what parts the columns.
+        let is_hint = index == 0 && line.to_ascii_lowercase().starts_with("sep=");
+        if line.is_empty() || is_hint || line.starts_with(['#', '%']) {
             continue;
         }
         let row = Row {
@@ -110,7 +112,10 @@ fn parse_lines(name: &str, bytes: &[u8]) -> Result<Vec<Row>, IoError> {
             text: line.to_owned(),
             numbers: Vec::new(),
         };
-        let Some((file, numbers)) = parse_line(line) else {
+        // A name may hold the sign of a comment.
+        let bare = line.rsplit_once(" #").or_else(|| line.rsplit_once("\t#"));
+        let parsed = parse_line(line).or_else(|| parse_line(bare?.0.trim_end()));
+        let Some((file, numbers)) = parsed else {
             return Err(row.wrong(name, "the three numbers x y z, after a file name or alone"));
         };
         rows.push(Row {
@@ -167,13 +172,13 @@ fn take_numbers(
         before.push(rest);
         if rest.is_empty() {
             numbers.reverse();
-            return (numbers.len() <= 4).then_some((None, numbers));
+            return (numbers.len() <= 7 && numbers.len() != 5).then_some((None, numbers));
         }
     }
-    // Six or four numbers (a light and its colour or brightness) only after the name of an image:
-    // other names may end with numbers.
+    // More numbers (a light and its colour, its brightness, and a confidence) only after the name of an image: other
+    // names may end with numbers.
     let named = |&count: &usize| format_of_extension(unquoted(before[count].trim())).is_some();
-    let count = [6, 4]
+    let count = [6, 5, 4]
         .into_iter()
         .filter(|&count| count <= numbers.len())
         .find(named)
@@ -239,7 +244,13 @@ mod tests {
             (Some("a 1.png".into()), vec![0.0, 0.0, 1.0, 2.0, 3.0, 4.0])
         );
         assert_eq!(line("12"), Some((None, vec![12.0])));
-        for text in ["x y z", "a b c d", "a.png 0 1", "1 2 3 4 5"] {
+        for text in [
+            "x y z",
+            "a b c d",
+            "a.png 0 1",
+            "1 2 3 4 5",
+            "1 2 3 4 5 6 7 8",
+        ] {
             assert_eq!(line(text), None, "{text}");
         }
     }

@@ -44,11 +44,6 @@ pub enum Notice {
         /// The text.
         list: String,
     },
-    /// A photograph whose name is unlike all others.
-    OddName {
-        /// The file.
-        file: String,
-    },
     /// A file holds several pages or pictures; one was taken.
     SeveralPages {
         /// The file.
@@ -81,6 +76,13 @@ pub enum Notice {
     },
     /// Samples without a finite value: infinite ones were taken as the brightest finite one.
     Infinite {
+        /// The file.
+        file: String,
+        /// Number of such samples.
+        samples: usize,
+    },
+    /// Samples that are no numbers (NaN), taken as black.
+    NotNumbers {
         /// The file.
         file: String,
         /// Number of such samples.
@@ -274,6 +276,13 @@ pub enum Notice {
         behind: usize,
         /// Of how many.
         of: usize,
+    },
+    /// A light file gives directions only.
+    LightsWithoutIntensity {
+        /// The light file.
+        file: String,
+        /// Whether the brightnesses were found from the photographs; else all are taken as equal.
+        found: bool,
     },
     /// The photographs contradict the lights: the object's outline does not brighten towards them.
     LightsContradict {

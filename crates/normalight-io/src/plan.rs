@@ -13,6 +13,9 @@ use crate::{IoError, Notice};
 use kinds::{Words, left_out_reason};
 use std::collections::BTreeMap;
 
+/// Pictures whose names make a series.
+const SERIES: usize = 4;
+
 /// Which of some files are the images, in which order, and which is the mask.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StackPlan {
@@ -87,13 +90,22 @@ pub fn plan_contents<S: AsRef<str>>(
                 .iter()
                 .partition(|&&index| words.reason(name(index)).is_some());
             let aids: Vec<usize> = aids;
-            let left_out = aids.iter().filter_map(|&index| {
-                let reason = words.reason(name(index))?;
-                Some(LeftOut::new(name(index), reason))
-            });
+            let mut left_out: Vec<LeftOut> = aids
+                .iter()
+                .filter_map(|&index| {
+                    let reason = words.reason(name(index))?;
+                    Some(LeftOut::new(name(index), reason))
+                })
+                .collect();
+            let mut images: Vec<usize> = images;
+            let odd = odd_names(&images, names);
+            left_out.extend(
+                odd.iter()
+                    .map(|&index| LeftOut::new(name(index), LeftOutReason::UnlikeNames)),
+            );
+            images.retain(|index| !odd.contains(index));
             StackPlan {
-                left_out: left_out.collect(),
-                notices: odd_names(&images, names),
+                left_out,
                 images,
                 ..StackPlan::default()
             }
@@ -213,8 +225,9 @@ fn check_copies<S: AsRef<str>>(images: &[usize], names: &[S]) -> Result<(), IoEr
     })
 }
 
-/// Photographs named unlike nearly all others.
-fn odd_names<S: AsRef<str>>(images: &[usize], names: &[S]) -> Vec<Notice> {
+/// Pictures whose names are unlike those of a series: of each such name there is one only, and of the series most of all.
+/// What is left out of few pictures would be missed; there they are only said.
+fn odd_names<S: AsRef<str>>(images: &[usize], names: &[S]) -> Vec<usize> {
     let pattern = |index: usize| -> String {
         let stem = folded(stem(names[index].as_ref()));
         stem.chars().filter(|c| c.is_alphabetic()).collect()
@@ -224,16 +237,12 @@ fn odd_names<S: AsRef<str>>(images: &[usize], names: &[S]) -> Vec<Notice> {
         *counts.entry(pattern(index)).or_default() += 1;
     }
     let usual = counts.values().max().copied().unwrap_or(0);
-    if 5 * usual < 4 * images.len() {
+    // Lamps may have names, too.
+    if usual < SERIES || 5 * usual < 3 * images.len() {
         return Vec::new();
     }
-    let odd = images
-        .iter()
-        .filter(|&&index| counts[&pattern(index)] < usual);
-    odd.map(|&index| Notice::OddName {
-        file: names[index].as_ref().to_owned(),
-    })
-    .collect()
+    let odd = images.iter().copied();
+    odd.filter(|&index| counts[&pattern(index)] == 1).collect()
 }
 
 /// The mask among the candidates: a file called just `mask`, else the first with it in its name.

@@ -1,6 +1,7 @@
 //! Photographs that cannot work: nearly the same, black or saturated ones, of a camera that moved
 //! ([`motion`]), without lamp ([`ambient`]).
 pub(crate) mod ambient;
+pub(crate) mod dark;
 pub(crate) mod motion;
 
 use crate::{IoError, Notice};
@@ -8,6 +9,8 @@ use normalight_core::{ImageStack, Mask, Rect, ShotLight, evenly_spaced_indices};
 
 /// Pixels that are looked at in each photograph.
 const PIXELS: usize = 4000;
+/// Light of samples that are full.
+const FULL: f32 = 0.995;
 /// Share of saturated pixels that is worth a word.
 const SATURATED: f32 = 0.2;
 /// Share of saturated samples over all shots that is.
@@ -57,10 +60,11 @@ pub(crate) fn check(stack: &ImageStack, mask: &Mask) -> Result<Vec<Notice>, IoEr
             files: black.iter().map(|&image| name(image)).collect(),
         });
     }
+    let levels = full_levels(stack, &shots);
     let share = |image: usize| {
-        let full = shots[image].iter().filter(|pixel| {
-            pixel.iter().copied().fold(0.0, f32::max) >= 0.995 && !is_float(stack, image)
-        });
+        let full = shots[image]
+            .iter()
+            .filter(|pixel| brightest_of(pixel) >= levels[image]);
         full.count() as f32 / chosen.len().max(1) as f32
     };
     let saturated: Vec<(usize, f32)> = (0..shots.len())
@@ -124,6 +128,37 @@ fn check_difference(
         notices.push(Notice::NearlyIdentical { files: near });
     }
     Ok(())
+}
+
+fn brightest_of(pixel: &[f32; 3]) -> f32 {
+    pixel.iter().copied().fold(0.0, f32::max)
+}
+
+/// Light from which on samples of each shot are saturated: full scale, or less where a converter scaled what the sensor had
+/// clipped. Then many samples are just as bright as the brightest, few nearly so, and of most shots it is the same level.
+fn full_levels(stack: &ImageStack, shots: &[Vec<[f32; 3]>]) -> Vec<f32> {
+    let clipped = |pixels: &Vec<[f32; 3]>| -> Option<f32> {
+        let most = pixels.iter().map(brightest_of).fold(0.0, f32::max);
+        let count = |from: f32, to: f32| {
+            let between =
+                |pixel: &&[f32; 3]| (from * most..to * most).contains(&brightest_of(pixel));
+            pixels.iter().filter(between).count()
+        };
+        let (at, near) = (count(0.999, 1.1), count(0.9, 0.999));
+        (20 * at > pixels.len() && at > 2 * near).then_some(most)
+    };
+    let found: Vec<Option<f32>> = shots.iter().map(clipped).collect();
+    let alike = |level: f32| {
+        let same = |other: &&f32| (**other - level).abs() < 2e-3 * level;
+        2 * found.iter().flatten().filter(same).count() >= shots.len()
+    };
+    (0..shots.len())
+        .map(|image| match found[image] {
+            Some(level) if alike(level) => 0.999 * level,
+            _ if is_float(stack, image) => f32::INFINITY,
+            _ => FULL,
+        })
+        .collect()
 }
 
 fn is_float(stack: &ImageStack, image: usize) -> bool {

@@ -2,7 +2,7 @@
 use crate::IoError;
 use crate::limits::MAX_TEXT_BYTES;
 
-/// Text of a small file: UTF-8 or UTF-16 with or without a byte order mark, else Latin-1.
+/// Text of a small file: UTF-8 or UTF-16 with or without a byte order mark, else Latin-1; lines end with `\n` or `\r\n`.
 ///
 /// # Errors
 /// [`IoError::FileTooLarge`] above [`MAX_TEXT_BYTES`].
@@ -18,7 +18,7 @@ pub fn read_text(name: &str, bytes: &[u8]) -> Result<String, IoError> {
         let units: Vec<u16> = rest.as_chunks::<2>().0.iter().map(|&b| order(b)).collect();
         String::from_utf16_lossy(&units)
     };
-    Ok(match bytes {
+    let text = match bytes {
         [0xFF, 0xFE, rest @ ..] => wide(rest, u16::from_le_bytes),
         [0xFE, 0xFF, rest @ ..] => wide(rest, u16::from_be_bytes),
         [0xEF, 0xBB, 0xBF, rest @ ..] => String::from_utf8_lossy(rest).into_owned(),
@@ -27,6 +27,11 @@ pub fn read_text(name: &str, bytes: &[u8]) -> Result<String, IoError> {
             // Every byte is a letter there, so names keep their length.
             Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
         },
+    };
+    // As old Macintosh programs end lines.
+    Ok(match text.contains('\n') {
+        true => text,
+        false => text.replace('\r', "\n"),
     })
 }
 

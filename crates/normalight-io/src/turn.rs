@@ -2,20 +2,24 @@
 use image::metadata::Orientation;
 use normalight_core::{Samples, StackImage};
 
+/// Whether width and height change places.
+pub(crate) fn swaps_sides(orientation: Orientation) -> bool {
+    matches!(
+        orientation,
+        Orientation::Rotate90
+            | Orientation::Rotate270
+            | Orientation::Rotate90FlipH
+            | Orientation::Rotate270FlipH
+    )
+}
+
 /// The image turned.
 pub(crate) fn turned(image: StackImage, orientation: Orientation) -> StackImage {
     if orientation == Orientation::NoTransforms {
         return image;
     }
     let (width, height) = (image.width, image.height);
-    let swaps = matches!(
-        orientation,
-        Orientation::Rotate90
-            | Orientation::Rotate270
-            | Orientation::Rotate90FlipH
-            | Orientation::Rotate270FlipH
-    );
-    let (new_width, new_height) = if swaps {
+    let (new_width, new_height) = if swaps_sides(orientation) {
         (height, width)
     } else {
         (width, height)

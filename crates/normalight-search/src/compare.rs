@@ -86,6 +86,14 @@ pub fn compare(
     device: &Device,
     mut observe: impl FnMut(CompareEvent) -> ControlFlow<()>,
 ) -> Result<Comparison, TrainError> {
+    compare_observed(run, device, &mut observe)
+}
+
+fn compare_observed(
+    run: &CompareRun,
+    device: &Device,
+    mut observe: Observe<'_>,
+) -> Result<Comparison, TrainError> {
     match &run.recipe.network {
         NetworkRecipe::Light(settings) => {
             let runner = ComparisonRunner::prepare(LightTask::new(settings), run, device)?;
@@ -97,6 +105,10 @@ pub fn compare(
         }
     }
 }
+
+/// What is told of a comparison, and whether it goes on; not generic: else every program that compares would compile all
+/// of it again.
+type Observe<'a> = &'a mut dyn FnMut(CompareEvent) -> ControlFlow<()>;
 
 /// Everything read and checked, nothing written yet.
 struct ComparisonRunner<'a, T> {
@@ -154,10 +166,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
         })
     }
 
-    fn run(
-        mut self,
-        observe: &mut impl FnMut(CompareEvent) -> ControlFlow<()>,
-    ) -> Result<Comparison, TrainError> {
+    fn run(mut self, observe: &mut Observe<'_>) -> Result<Comparison, TrainError> {
         let folder = Folder::claim(&self.run.folder, &self.common)?;
         let mut comparison = self.empty();
         if self.run.equal == Equal::TrainingTime {
@@ -183,7 +192,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
         &self,
         folder: &Folder,
         comparison: &mut Comparison,
-        observe: &mut impl FnMut(CompareEvent) -> ControlFlow<()>,
+        observe: &mut Observe<'_>,
     ) -> Result<RunState, TrainError> {
         for &seed in &self.seeds {
             for (index, recipe) in self.recipes.iter().enumerate() {
@@ -245,7 +254,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
     }
 }
 
-fn observe_note(observe: &mut impl FnMut(CompareEvent) -> ControlFlow<()>, text: String) {
+fn observe_note(observe: &mut Observe<'_>, text: String) {
     let _ = observe(CompareEvent::Note(text));
 }
 

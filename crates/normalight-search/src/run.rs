@@ -41,6 +41,18 @@ pub fn search(
     device: &Device,
     mut observe: impl FnMut(RunEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
+    search_observed(run, device, &mut observe)
+}
+
+/// What is told of a run, and whether it goes on; not generic: else every program that searches would compile all of
+/// it again.
+type Observe<'a> = &'a mut dyn FnMut(RunEvent) -> ControlFlow<()>;
+
+fn search_observed(
+    run: &SearchRun,
+    device: &Device,
+    mut observe: Observe<'_>,
+) -> Result<Summary, TrainError> {
     run.recipe.validate()?;
     match &run.recipe.training.network {
         NetworkRecipe::Light(settings) => {
@@ -101,7 +113,7 @@ fn search_network<T: SearchTask>(
     task: T,
     run: &SearchRun,
     device: &Device,
-    observe: &mut impl FnMut(RunEvent) -> ControlFlow<()>,
+    observe: &mut Observe<'_>,
 ) -> Result<Summary, TrainError> {
     let recipe = &run.recipe;
     let mut learner = SearchLearner::new(task, recipe, device, run.steps_on)?;

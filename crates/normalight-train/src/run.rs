@@ -75,7 +75,16 @@ pub fn train<'a>(
     devices: impl Into<Devices<'a>>,
     mut observe: impl FnMut(RunEvent) -> ControlFlow<()>,
 ) -> Result<Summary, TrainError> {
-    let (recipe, devices) = (&run.recipe, &devices.into());
+    train_observed(run, devices.into(), &mut observe)
+}
+
+/// Not generic: else every program that trains would compile the trainer again.
+fn train_observed(
+    run: &TrainRun,
+    devices: Devices<'_>,
+    mut observe: &mut dyn FnMut(RunEvent) -> ControlFlow<()>,
+) -> Result<Summary, TrainError> {
+    let (recipe, devices) = (&run.recipe, &devices);
     recipe.validate()?;
     let spec = RunSpec {
         folder: run.folder.clone(),

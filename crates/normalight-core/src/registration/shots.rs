@@ -4,6 +4,12 @@ use super::spectrum::{Transform, frequencies};
 use super::view::Picture;
 use rustfft::num_complex::Complex32;
 
+/// Shifts up to this share of a picture's shorter side are looked for; larger than the first only where the fit stands out
+/// by so many deviations more, since what the light does to edges never goes that far.
+const NEAR: usize = 6;
+const FAR: usize = 3;
+const STANDS_OUT: f32 = 10.0;
+
 /// Width of the Gaussian that keeps the finest frequencies small, in pixels.
 const BLUR: f64 = 0.7;
 /// Spectra smaller than this hold nothing.
@@ -19,8 +25,9 @@ const SPACING: f32 = 0.125;
 /// Whitened spectra of the edges of shots of one size, each of unit energy or zero.
 pub(super) struct Spectra {
     transform: Transform,
-    /// Largest shift that is looked for, in pixels.
+    /// Largest shift that is looked for, in pixels, and the largest of those that are usual.
     range: usize,
+    near: i64,
     spectra: Vec<Vec<Complex32>>,
     /// Share of each shot's pixels that are clear edges.
     clear: Vec<f32>,
@@ -40,9 +47,10 @@ pub(super) struct Fit {
 impl Spectra {
     pub(super) fn new(pictures: impl Iterator<Item = Picture>, size: [usize; 2]) -> Self {
         let [width, height] = size;
-        let range = (width.min(height) / 6).max(4);
-        // The empty border keeps shifts within the range from meeting the other side.
-        let transform = Transform::at_least(width + range, height + range);
+        let range = (width.min(height) / FAR).max(4);
+        let near = (width.min(height) / NEAR).max(4);
+        // The empty border keeps usual shifts from meeting the other side; of larger ones a part does, as noise.
+        let transform = Transform::at_least(width + near, height + near);
         let (spectra, clear) = pictures
             .map(|picture| {
                 let edges = edges(&picture);
@@ -54,6 +62,7 @@ impl Spectra {
         Self {
             transform,
             range,
+            near: near as i64,
             spectra,
             clear,
         }
@@ -108,14 +117,21 @@ impl Spectra {
             let (x, y) = (x.rem_euclid(width as i64), y.rem_euclid(height as i64));
             surface[y as usize * width + x as usize].re
         };
-        let range = self.range as i64;
-        let (mut best, mut place) = (at(0, 0), (0, 0));
-        for y in -range..=range {
-            for x in -range..=range {
-                if at(x, y) > best {
-                    (best, place) = (at(x, y), (x, y));
+        let summit_within = |range: i64| {
+            let (mut best, mut place) = (at(0, 0), (0, 0));
+            for y in -range..=range {
+                for x in -range..=range {
+                    if at(x, y) > best {
+                        (best, place) = (at(x, y), (x, y));
+                    }
                 }
             }
+            (best, place)
+        };
+        let (mut best, mut place) = summit_within(self.near);
+        let far = summit_within(self.range as i64);
+        if far.0 > best + STANDS_OUT * deviation {
+            (best, place) = far;
         }
         let (x, y) = place;
         let near = [

@@ -8,7 +8,7 @@ use crate::source::{FileSource, LooseFiles};
 use crate::text::read_text;
 use std::fs::File;
 use std::io::{BufReader, Read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Files of a folder, or files that were given.
 pub(super) struct DiskFiles {
@@ -22,7 +22,7 @@ pub(super) struct DiskFiles {
 impl DiskFiles {
     pub(super) fn new(paths: Vec<PathBuf>, limits: Limits) -> Self {
         Self {
-            names: paths.iter().map(|path| file_name(path)).collect(),
+            names: names_of(&paths),
             paths,
             limits,
             folder: None,
@@ -35,6 +35,28 @@ impl DiskFiles {
             ..Self::new(paths, limits)
         }
     }
+}
+
+/// Names of the files, with as many of their folders as tell those of one name apart.
+fn names_of(paths: &[PathBuf]) -> Vec<String> {
+    let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
+    let mut sorted: Vec<&String> = names.iter().collect();
+    sorted.sort();
+    if sorted.windows(2).all(|pair| pair[0] != pair[1]) {
+        return names;
+    }
+    let shared = |path: &Path| {
+        let mut folders = path.ancestors().skip(1).map(Path::to_owned);
+        folders.find(|folder| paths.iter().all(|other| other.starts_with(folder)))
+    };
+    let shared = paths.first().and_then(|first| shared(first));
+    let below = |path: &PathBuf| {
+        let rest = shared
+            .as_ref()
+            .and_then(|shared| path.strip_prefix(shared).ok());
+        display(rest.unwrap_or(path))
+    };
+    paths.iter().map(below).collect()
 }
 
 impl FileSource for DiskFiles {

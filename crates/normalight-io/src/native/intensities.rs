@@ -12,6 +12,7 @@ impl LightFile {
         for (light, line) in self.rows.iter_mut().zip(&lines) {
             light.intensity = intensity(name, line)?;
         }
+        self.intensities = Some(name.to_owned());
         Ok(self)
     }
 }

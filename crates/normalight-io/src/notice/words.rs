@@ -12,6 +12,14 @@ pub(crate) fn some_names(names: &[String]) -> String {
     }
 }
 
+/// A share of full scale; of tiny ones (small numbers in 16 bits) their digits too.
+fn short(value: f32) -> String {
+    match value.abs() {
+        size if size > 0.0 && size < 0.01 => format!("{value:.1e}"),
+        _ => format!("{value:.3}"),
+    }
+}
+
 impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -42,10 +50,6 @@ impl fmt::Display for Notice {
                 f,
                 "{list}: by its name a list of rejects, not taken as the list of the photographs"
             ),
-            Self::OddName { file } => write!(
-                f,
-                "{file}: named unlike the other photographs, but taken as one"
-            ),
             Self::SeveralPages { file, pages, page } => write!(
                 f,
                 "{file}: has {pages} pages, page {page} was taken; save others as files of their own to use them"
@@ -66,6 +70,9 @@ impl fmt::Display for Notice {
                 f,
                 "{file}: {samples} infinite samples, taken as the brightest finite value"
             ),
+            Self::NotNumbers { file, samples } => {
+                write!(f, "{file}: {samples} samples are no numbers (NaN); taken as black")
+            }
             Self::Orientations { files } => write!(
                 f,
                 "{}: turned otherwise than the other shots by their EXIF orientation; pixels of all shots were taken as stored",
@@ -126,7 +133,9 @@ impl fmt::Display for Notice {
             ),
             Self::MaskValues { file, values, above } => write!(
                 f,
-                "{file}: holds the values {values:.3?}; inside is what is above {above:.3}"
+                "{file}: holds the values {}; inside is what is above {}",
+                values.iter().map(|&value| short(value)).collect::<Vec<_>>().join(", "),
+                short(*above)
             ),
             Self::MaskGuessedWhole => f.write_str(
                 "no mask was found and no object could be told from a background, so the whole frame was taken; if there is a background, give a mask",
@@ -205,6 +214,14 @@ impl fmt::Display for Notice {
             Self::LightsBehind { file, behind, of } => write!(
                 f,
                 "{file}: {behind} of {of} lights lie behind the object (negative z)"
+            ),
+            Self::LightsWithoutIntensity { file, found: true } => write!(
+                f,
+                "{file}: gives directions only; how bright each light is was found from the photographs"
+            ),
+            Self::LightsWithoutIntensity { file, found: false } => write!(
+                f,
+                "{file}: gives directions only, and the photographs do not tell how bright each light is: all were taken as equally bright"
             ),
             Self::LightsContradict { file, axes: Some(axes) } => write!(
                 f,

@@ -5,10 +5,25 @@ use crate::input_plan::LeftOutReason;
 use crate::names::{folded, stem};
 
 /// Words for masks and for pictures that are results or aids, anywhere in a name.
-const MASKS: &[&str] = &["mask", "silhouette"];
+const MASKS: &[&str] = &["mask", "silhouette", "matte"];
 const AMBIENT: &[&str] = &[
-    "ambient", "noflash", "no_flash", "no-flash", "no flash", "nolight", "no_light", "no-light",
-    "no light", "nolamp", "no_lamp", "no-lamp", "no lamp",
+    "ambient",
+    "noflash",
+    "no_flash",
+    "no-flash",
+    "no flash",
+    "nolight",
+    "no_light",
+    "no-light",
+    "no light",
+    "nolamp",
+    "no_lamp",
+    "no-lamp",
+    "no lamp",
+    "umgebung",
+    "flat_field",
+    "flatfield",
+    "flat field",
 ];
 const MAPS: &[&str] = &[
     "normal",
@@ -26,6 +41,14 @@ const MAPS: &[&str] = &[
     "specular",
     "diffuse",
     "confidence",
+    "emissive",
+    "cavity",
+    "tonemapped",
+    "tone_mapped",
+    "contact_sheet",
+    "contactsheet",
+    "panorama",
+    "composite",
 ];
 /// Words that stand in other words too: only alone, between signs or digits.
 const SHORT_AMBIENT: &[&str] = &["dark", "off", "unlit", "darkframe"];
@@ -38,6 +61,20 @@ const SHORT_MAPS: &[&str] = &[
     "rough",
     "metal",
     "opacity",
+    "bump",
+    "disp",
+    "gloss",
+    "spec",
+    "orm",
+    "arm",
+    "rho",
+    "average",
+    "median",
+    "preview",
+    "blend",
+    "snapshot",
+    "nor",
+    "diff",
 ];
 
 /// Words of texts that list what shall not be used.

@@ -1,11 +1,10 @@
 //! Equal training times: how long a step of everything takes, and how many steps that leaves it.
 use super::folder::Folder;
-use super::{CompareEvent, Entry};
+use super::{CompareEvent, Entry, Observe};
 use burn::tensor::Device;
 use normalight_run::{BatchMaker, Learner, sha256};
 use normalight_train::{Batch, NetworkLearner, SampleMaker, Task, TrainError, TrainRecipe};
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 const TIMES: &str = "times.json";
@@ -124,7 +123,7 @@ pub(super) fn measure<T: Task>(
     recipes: &[TrainRecipe],
     maker: &mut SampleMaker<T>,
     device: &Device,
-    observe: &mut impl FnMut(CompareEvent) -> ControlFlow<()>,
+    observe: &mut Observe<'_>,
 ) -> Result<Option<Vec<f64>>, TrainError> {
     let batch = maker.make(0)?;
     let mut seconds = vec![f64::INFINITY; recipes.len()];

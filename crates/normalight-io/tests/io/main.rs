@@ -1,0 +1,32 @@
+//! Files and stacks as people have them. One program, since each would be compiled with all that it uses.
+#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
+mod archive_layouts;
+mod archives;
+mod archives_refused;
+mod color;
+mod color_exif;
+mod color_statements;
+mod common;
+mod decode;
+mod derived;
+mod diligent;
+mod files;
+mod folders;
+mod given_lights;
+mod hostile;
+mod inputs;
+mod kinds;
+mod light_files;
+mod lights;
+mod masks;
+mod mesh_files;
+mod mesh_mutations;
+mod meshes;
+mod mutations;
+mod outputs;
+mod published_read;
+mod published_splits;
+mod published_write;
+mod shared_data;
+mod shots;
+mod stack;
