@@ -1,4 +1,4 @@
-import type { InputFile } from "./generated.js";
+import type { InputFile } from "../wasm/normalight.js";
 import type { NamedFile, StackFile } from "./types.js";
 
 /** Bytes that tell formats and signatures apart. */

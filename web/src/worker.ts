@@ -1,7 +1,7 @@
-import type { Engine } from "../wasm/normalight.js";
+import type { Engine, InputFile } from "../wasm/normalight.js";
 import { bytesOf, HEAD, read, readForPlan } from "./decode.js";
 import { chooseDevice, cpu } from "./device.js";
-import type { InputFile, Thrown } from "./generated.js";
+import type { Thrown } from "./generated.js";
 import { load, type Module } from "./load.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
 import type { DeviceChoice, DeviceReport, StackFile } from "./types.js";

@@ -70,7 +70,10 @@ fn files_that_are_no_complete_images() {
 #[test]
 fn images_that_do_not_fit() {
     let bench = Bench::new();
-    RgbImage::new(48, 47).save(bench.image(5)).unwrap();
+    // One alone is left out; of halves nobody can tell which are meant.
+    for number in 5..=IMAGES {
+        RgbImage::new(48, 47).save(bench.image(number)).unwrap();
+    }
     bench.fails(&[], &["005.png", "48x47", "48x48"]);
     for number in 1..=IMAGES {
         RgbImage::new(48, 48).save(bench.image(number)).unwrap();
@@ -118,11 +121,19 @@ fn an_image_beyond_the_limit() {
 #[test]
 fn numbers_that_are_none() {
     let bench = Bench::new();
-    let mut picture = Rgb32FImage::new(48, 48);
+    let lights = bench.place.path().join("lights.txt");
+    std::fs::write(&lights, "nan 0 1\n".repeat(IMAGES)).unwrap();
+    bench.fails(
+        &["--lights", path(&lights)],
+        &["lights.txt", "line 1", "finite"],
+    );
+    // In photographs there is nothing where they have none.
+    let mut picture = Rgb32FImage::from_pixel(48, 48, image::Rgb([0.3; 3]));
     picture.get_pixel_mut(20, 20)[1] = f32::NAN;
-    let path = bench.photographs.join("000.exr");
-    DynamicImage::ImageRgb32F(picture).save(path).unwrap();
-    bench.fails(&[], &["000.exr", "finite"]);
+    let file = bench.photographs.join("000.exr");
+    DynamicImage::ImageRgb32F(picture).save(file).unwrap();
+    let command = normalight(&["estimate", path(&bench.photographs), "--dry-run"]);
+    assert!(said(command).contains("000.exr: 1 samples are no numbers (NaN)"));
 }
 
 #[test]
