@@ -40,7 +40,11 @@ const cases = [
     [{ name: "notes.docx", bytes: text.encode("hello") }],
     /notes\.docx: found a file with extension/,
   ],
-  ["images of different sizes", [...three, greyPng("4.png", 40, 32, 200)], /4\.png: 40x32 pixels/],
+  [
+    "images of different sizes",
+    [...three, ...[4, 5, 6].map((number) => greyPng(`${number}.png`, 40, 32, 200))],
+    /4\.png: 40x32 pixels/,
+  ],
   ["fewer than three images", three.slice(1), /2 image\(s\) found, at least 3/],
   ["black images", three.map(({ name }) => greyPng(name, 32, 32, 0)), /black inside the mask/],
   ["an empty mask", [...three, greyPng("mask.png", 32, 32, 0)], /mask\.png: the mask is empty/],

@@ -128,7 +128,7 @@ test("what only the browser decodes is decoded, and said", async () => {
   );
   assert.ok(!said.some((line) => /extension|nothing in the photographs says/.test(line)), said.join("\n"));
   const { color } = await pagePlan();
-  assert.deepEqual(color, { taken: "srgb", because: "stated" });
+  assert.deepEqual(color, { taken: "sRGB", because: "stated" });
 });
 
 test("lights with another handedness: their axes are a setting", async () => {

@@ -98,7 +98,8 @@ export class Page {
   /** Chooses a file for a setting. @param {"mask" | "lights"} setting @param {import("./files.js").TestFile} file */
   async choose(setting, { name, bytes }) {
     const coming = this.page.waitForEvent("filechooser");
-    await this.page.check(`input[name="${setting}"][value="file"]`, { force: true });
+    // A click, as people do: the choice may be made already, for another file.
+    await this.page.click(`label:has(input[name="${setting}"][value="file"])`);
     const chooser = await coming;
     await chooser.setFiles({ name, mimeType: "", buffer: Buffer.from(bytes) });
     await this.page.waitForSelector(`#${setting}-name:text-is("${name}")`);
