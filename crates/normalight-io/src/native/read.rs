@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// of a tar.gz archive), and only the picked images are read.
 ///
 /// In a folder, files that are no images are ignored and a list or a mask counts, see
-/// [`plan_stack`]. A file that is given must be an image or an archive; what an archive is and what
+/// [`plan_stack`](crate::plan_stack). A file that is given must be an image or an archive; what an archive is and what
 /// of it counts, [`read_stack`](crate::read_stack) says. A path may lead to a folder in an archive:
 /// `capture.zip/photos`.
 ///

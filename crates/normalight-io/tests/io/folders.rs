@@ -300,7 +300,7 @@ fn content_tells_images_where_the_name_does_not() {
     ] {
         let mut files = shots(name);
         files.push(file("notes", b"a text".to_vec()));
-        files.push(file("IMG_1.THM", shaded_png(16, 12, 8)));
+        files.push(file("IMG_1.jpg_original", shaded_png(16, 12, 8)));
         files.push(file("IMG_2.dng", [b"II*\0".as_slice(), &[0; 400]].concat()));
         let input = read(files).unwrap();
         assert_eq!(input.file_names, (1..=5).map(name).collect::<Vec<_>>());
@@ -312,6 +312,6 @@ fn content_tells_images_where_the_name_does_not() {
             .iter()
             .map(|left| left.file.as_str())
             .collect();
-        assert_eq!(left, ["notes", "IMG_1.THM", "IMG_2.dng"]);
+        assert_eq!(left, ["notes", "IMG_1.jpg_original", "IMG_2.dng"]);
     }
 }
