@@ -5,7 +5,7 @@ use rustfft::num_complex::Complex32;
 /// Most rounds over all shots.
 const ROUNDS: usize = 6;
 /// A round in which no shot moves by more pixels is the last.
-const SETTLED: f32 = 0.05;
+const SETTLED: f32 = 0.15;
 /// A shift above this, in pixels, is worth a second start.
 const MOVED: f32 = 0.6;
 

@@ -117,19 +117,26 @@ impl Spectra {
             let (x, y) = (x.rem_euclid(width as i64), y.rem_euclid(height as i64));
             surface[y as usize * width + x as usize].re
         };
-        let summit_within = |range: i64| {
-            let (mut best, mut place) = (at(0, 0), (0, 0));
-            for y in -range..=range {
-                for x in -range..=range {
-                    if at(x, y) > best {
-                        (best, place) = (at(x, y), (x, y));
+        let (mut best, mut place) = (at(0, 0), (0, 0));
+        let mut far = (best, place);
+        let range = self.range as i64;
+        for y in -range..=range {
+            let row = y.rem_euclid(height as i64) as usize * width;
+            let row = &surface[row..row + width];
+            // Shifts to the left stand at the end of a row.
+            let ends = [(-range, width - self.range..width), (0, 0..self.range + 1)];
+            for (first, part) in ends {
+                for (x, value) in (first..).zip(&row[part]) {
+                    let is_near = x.abs().max(y.abs()) <= self.near;
+                    if is_near && value.re > best {
+                        (best, place) = (value.re, (x, y));
+                    }
+                    if value.re > far.0 {
+                        far = (value.re, (x, y));
                     }
                 }
             }
-            (best, place)
-        };
-        let (mut best, mut place) = summit_within(self.near);
-        let far = summit_within(self.range as i64);
+        }
         if far.0 > best + STANDS_OUT * deviation {
             (best, place) = far;
         }
