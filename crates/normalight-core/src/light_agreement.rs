@@ -1,7 +1,8 @@
 //! Whether lights that were given fit the photographs: at its outline an object turns outwards, so that it must be brightest
 //! there when the light comes from outside.
+use crate::woodham::outer;
 use crate::{ImageStack, Light, Mask, luminance};
-use glam::{DMat3, DVec3, Mat3, Vec2, Vec3};
+use glam::{DMat3, Mat3, Vec2, Vec3};
 
 /// Longest side of the grid on which the object is looked at.
 const GRID: usize = 512;
@@ -123,10 +124,6 @@ fn is_ordered(stack: &ImageStack, pixels: &[usize], lights: &[Light]) -> bool {
     })
 }
 
-fn outer(l: DVec3) -> DMat3 {
-    DMat3::from_cols(l * l.x, l * l.y, l * l.z)
-}
-
 /// Which given coordinate becomes our axis.
 fn source(axes: [(usize, bool); 3], axis: usize) -> usize {
     axes.iter().position(|&(to, _)| to == axis).unwrap_or(axis)
@@ -193,13 +190,13 @@ fn thinned<T: Copy>(all: Vec<T>) -> Vec<T> {
 /// Least-squares normals of single pixels under these lights (Woodham 1980); zero for black ones. `None` for lights in a
 /// plane.
 fn normals(stack: &ImageStack, lights: &[Light], pixels: &[usize]) -> Option<Vec<Vec3>> {
-    let outer = |l: Vec3| Mat3::from_cols(l * l.x, l * l.y, l * l.z);
-    let gram = lights.iter().map(|light| outer(light.direction));
-    let gram = gram.fold(Mat3::ZERO, |sum, one| sum + one) * (1.0 / lights.len() as f32);
+    let gram = lights.iter().map(|light| outer(light.direction.as_dvec3()));
+    let gram = gram.fold(DMat3::ZERO, |sum, one| sum + one) / lights.len() as f64;
     // Of unit vectors all over the half in front of an object, 0.03 and more.
     if gram.determinant() < 1e-5 {
         return None;
     }
+    let gram = gram.as_mat3();
     let inverse = gram.inverse();
     let mut sums = vec![Vec3::ZERO; pixels.len()];
     let mut colors = vec![[0.0; 3]; pixels.len()];

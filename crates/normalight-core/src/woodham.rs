@@ -6,6 +6,11 @@ pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
     0.2989 * r + 0.587 * g + 0.114 * b
 }
 
+/// The product of a vector with itself as a matrix.
+pub(crate) fn outer(vector: DVec3) -> DMat3 {
+    DMat3::from_cols(vector * vector.x, vector * vector.y, vector * vector.z)
+}
+
 /// Calibrated least squares (Woodham 1980): per pixel the vector `g` that minimises the sum over
 /// the images of `(i - l.g)^2`, where `i` is the grey value after division by the light's intensity per
 /// channel; its direction is the normal, its length the albedo.
@@ -35,11 +40,7 @@ pub fn least_squares_normals(
     for (image, light) in lights.iter().enumerate() {
         stack.linear_tile(image, rect, &mut tile);
         let direction = light.direction.as_dvec3();
-        gram += DMat3::from_cols(
-            direction * direction.x,
-            direction * direction.y,
-            direction * direction.z,
-        );
+        gram += outer(direction);
         let [r, g, b] = light.intensity.map(|value| value.max(f32::MIN_POSITIVE));
         for (pixel, sum) in projected.iter_mut().enumerate() {
             let grey = luminance([

@@ -124,21 +124,19 @@ pub(crate) fn decode_stored(
         _ => statement.apply(samples, channels),
     };
     if let Samples::F32(values) = &mut samples {
-        let samples = tame_nan(values);
-        if samples > 0 {
+        let file = || name.to_owned();
+        if let Some(samples) = tame_nan(values) {
             notices.push(Notice::NotNumbers {
-                file: name.to_owned(),
+                file: file(),
                 samples,
             });
         }
-    }
-    if let Samples::F32(values) = &mut samples
-        && let Some(samples) = tame_infinite(values)
-    {
-        notices.push(Notice::Infinite {
-            file: name.to_owned(),
-            samples,
-        });
+        if let Some(samples) = tame_infinite(values) {
+            notices.push(Notice::Infinite {
+                file: file(),
+                samples,
+            });
+        }
     }
     Ok(Stored {
         image: StackImage {
@@ -175,14 +173,14 @@ fn taken(color: ColorMode, format: ImageFormat, samples: &Samples, said: Stateme
     }
 }
 
-/// What is not a number becomes 0; how many there were. Renderers and stitchers write it where there is nothing.
-fn tame_nan(values: &mut [f32]) -> usize {
+/// What is not a number becomes 0; how many there were, if any. Renderers and stitchers write it where there is nothing.
+fn tame_nan(values: &mut [f32]) -> Option<usize> {
     let mut count = 0;
     for value in values.iter_mut().filter(|value| value.is_nan()) {
         *value = 0.0;
         count += 1;
     }
-    count
+    (count > 0).then_some(count)
 }
 
 /// Infinite values become the largest finite one, or 0 below all; their number, when there were

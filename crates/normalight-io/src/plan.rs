@@ -71,14 +71,14 @@ pub fn plan_contents<S: AsRef<str>>(
     list: Option<(&str, &str)>,
 ) -> Result<StackPlan, IoError> {
     let name = |index: usize| names[index].as_ref();
-    let told: Vec<usize> = heads
-        .iter()
-        .filter(|(index, head)| {
-            content_decides(name(*index)) && is_image_content(name(*index), head)
-        })
-        .map(|(index, _)| *index)
+    let mut images: Vec<bool> = (0..names.len())
+        .map(|index| kinds::is_visible_image(name(index)))
         .collect();
-    let is_image = |index: usize| kinds::is_visible_image(name(index)) || told.contains(&index);
+    for (index, head) in heads {
+        let name = name(*index);
+        images[*index] |= content_decides(name) && is_image_content(name, head);
+    }
+    let is_image = |index: usize| images[index];
     let mut candidates: Vec<usize> = (0..names.len()).filter(|&index| is_image(index)).collect();
     candidates.sort_by(|&a, &b| natord::compare(name(a), name(b)));
     let words = Words::of(candidates.iter().map(|&index| name(index)));

@@ -41,7 +41,7 @@ pub struct Thumbnail {
 }
 
 /// Which of the files are the images, in which order, and which is the mask. Names count, the content of
-/// text files, and where a name does not tell whether it is an image (see `contentDecides`) the first bytes: the others may be
+/// text files, and where a name does not tell whether it is an image the first bytes: the others may be
 /// left out.
 ///
 /// # Errors
