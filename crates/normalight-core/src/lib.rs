@@ -43,6 +43,7 @@ mod mask;
 mod mesh;
 mod metrics;
 mod normal_map;
+mod parallel;
 mod quality;
 mod rect;
 mod refit;
@@ -74,6 +75,7 @@ pub use metrics::{
     NormalError, intensity_error, mean_light_error, normal_error, normal_error_between,
 };
 pub use normal_map::NormalMap;
+pub use parallel::on_all_cores;
 pub use quality::Quality;
 pub use rect::Rect;
 pub use refit::{RefitSettings, refit_lights};

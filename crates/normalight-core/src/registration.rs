@@ -16,8 +16,9 @@ mod view;
 
 pub use translate::{keep_seen, translated};
 
-use crate::{ImageStack, Mask, Rect};
-use joint::place;
+use crate::{ImageStack, Mask, Rect, on_all_cores};
+use groups::{Compared, compare};
+use joint::{place, place_near};
 use shots::{Fit, Spectra};
 use view::{Picture, View};
 
@@ -75,8 +76,8 @@ pub fn register_shots(stack: &ImageStack, mask: &Mask) -> Registration {
     let unmoved = vec![[0; 2]; stack.len()];
     let view = View::over(area, SIDE);
     let spectra = view.spectra(stack, &unmoved);
-    let fits = place(&spectra).fits;
-    let groups = groups::groups(&spectra, COMPARED);
+    let Compared { groups, apart } = compare(&spectra, COMPARED);
+    let fits = place(&spectra, apart).fits;
     let mut shifts: Vec<ShotShift> = fits.iter().map(|fit| shot_shift(fit, view.step)).collect();
     let exact = View::over(area, EXACT_SIDE);
     // From whole pixels to the next: what is left is measured best where it is small.
@@ -88,12 +89,12 @@ pub fn register_shots(stack: &ImageStack, mask: &Mask) -> Registration {
             .iter()
             .map(|shot| shot.shift.map(|pixels| pixels.round() as i64))
             .collect();
-        let fits = place(&exact.spectra(stack, &offsets)).fits;
-        for ((shot, fit), offset) in shifts.iter_mut().zip(&fits).zip(offsets) {
-            let rest = shot_shift(fit, exact.step);
+        let rests = place_near(&exact.spectra(stack, &offsets));
+        for ((shot, rest), offset) in shifts.iter_mut().zip(rests).zip(offsets) {
+            let rest = rest.map(|pixels| pixels * exact.step as f32);
             // More than the first pictures can have been wrong by is an accident.
-            if rest.pixels() < 1.5 * view.step as f32 {
-                shot.shift = [0, 1].map(|axis| offset[axis] as f32 + rest.shift[axis]);
+            if rest[0].hypot(rest[1]) < 1.5 * view.step as f32 {
+                shot.shift = [0, 1].map(|axis| offset[axis] as f32 + rest[axis]);
             }
         }
         let offsets: Vec<[i64; 2]> = shifts
@@ -139,15 +140,12 @@ impl View {
     }
 
     fn pictures(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Vec<Picture> {
-        let shots = offsets.iter().enumerate();
-        shots
-            .map(|(shot, &offset)| self.of(stack, shot, offset))
-            .collect()
+        on_all_cores(offsets.len(), |shot| self.of(stack, shot, offsets[shot]))
     }
 
     fn spectra(&self, stack: &ImageStack, offsets: &[[i64; 2]]) -> Spectra {
-        let pictures = self.pictures(stack, offsets);
-        Spectra::new(pictures.into_iter(), [self.width(), self.height()])
+        let picture = |shot: usize| self.of(stack, shot, offsets[shot]);
+        Spectra::new((offsets.len(), picture), [self.width(), self.height()])
     }
 }
 

@@ -4,7 +4,7 @@ mod ambient;
 
 pub use ambient::without_ambient;
 
-use crate::{ImageStack, Mask, evenly_spaced_indices, luminance};
+use crate::{ImageStack, Mask, evenly_spaced_indices, luminance, on_all_cores};
 
 /// Pixels that are looked at in each shot.
 const PIXELS: usize = 3000;
@@ -40,14 +40,13 @@ impl ShotLight {
                 (0..9).map(move |k| (y + k / 3 - 1) * width + x + k % 3 - 1)
             })
             .collect();
-        let mut colours = vec![[0.0; 3]; around.len()];
-        let mut shots = Vec::with_capacity(stack.len());
-        for shot in 0..stack.len() {
+        let shots = on_all_cores(stack.len(), |shot| {
+            let mut colours = vec![[0.0; 3]; around.len()];
             stack.linear_pixels(shot, &around, &mut colours);
             let blocks = colours.chunks_exact(9);
             let mean = |block: &[[f32; 3]]| block.iter().map(|&rgb| luminance(rgb)).sum::<f32>();
-            shots.push(blocks.map(|block| mean(block) / 9.0).collect::<Vec<f32>>());
-        }
+            blocks.map(|block| mean(block) / 9.0).collect::<Vec<f32>>()
+        });
         let brightest = (0..shots[0].len()).map(|place| {
             let lights = shots.iter().map(|shot| shot[place]);
             lights.fold(0.0, f32::max)

@@ -124,6 +124,18 @@ impl ImageStack {
         brightest
     }
 
+    /// Whether any of some pixels shows light in any image; stops at the first.
+    fn is_lit(&self, pixels: &[usize]) -> bool {
+        let mut light = vec![[0.0; 3]; 4096];
+        pixels.chunks(light.len()).any(|pixels| {
+            let light = &mut light[..pixels.len()];
+            (0..self.len()).any(|image| {
+                self.linear_pixels(image, pixels, light);
+                light.iter().flatten().any(|&value| value > 0.0)
+            })
+        })
+    }
+
     /// Checks that the mask fits and that some light falls inside it.
     ///
     /// # Errors
@@ -143,12 +155,7 @@ impl ImageStack {
                 name: name.to_owned(),
             });
         }
-        let lit = self
-            .brightest()
-            .iter()
-            .zip(mask.inside())
-            .any(|(&value, &inside)| inside && value > 0.0);
-        if !lit {
+        if !self.is_lit(&mask.pixels()) {
             return Err(CoreError::AllBlack { images: self.len() });
         }
         Ok(())

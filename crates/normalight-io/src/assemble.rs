@@ -11,7 +11,9 @@ use crate::{
     AmbientChoice, IoError, MaskChoice, Notice, ReadOptions, StackInput, left_out_lines, mask_file,
     shots,
 };
-use normalight_core::{ImageStack, MIN_IMAGES, Mask, MaskGuess, MaskSource, evenly_spaced_indices};
+use normalight_core::{
+    ImageStack, MIN_IMAGES, Mask, MaskGuess, MaskSource, Transfer, evenly_spaced_indices,
+};
 use photographs::read_shots;
 
 /// Share of a guessed mask's outline that the photographs agree with when nothing need be said.
@@ -49,7 +51,6 @@ pub(crate) fn assemble(
             None => None,
         },
     };
-    let unstated = shots.stated.iter().any(Option::is_none);
     let mut stack = ImageStack::new(images)?;
     let mut guess = None;
     let (mask, mask_source) = match (given, shots.alpha) {
@@ -70,6 +71,7 @@ pub(crate) fn assemble(
         }
     };
     stack.check_mask(&mask, mask_label(&mask_source))?;
+    let taken_before = transfers(&stack);
     let (color, doubts) = decision::decide(
         &mut stack,
         &mask,
@@ -82,7 +84,10 @@ pub(crate) fn assemble(
         None => mask,
         Some(guess) => {
             // It sees light, not codes.
-            let guess = if unstated { Mask::guess(&stack) } else { guess };
+            let guess = match transfers(&stack) == taken_before {
+                true => guess,
+                false => Mask::guess(&stack),
+            };
             notices.extend(doubt_of(&guess));
             guess.mask
         }
@@ -143,6 +148,11 @@ pub(crate) fn assemble(
         picked,
         plan,
     })
+}
+
+/// How the samples of each image are taken.
+fn transfers(stack: &ImageStack) -> Vec<Transfer> {
+    stack.images().iter().map(|image| image.transfer).collect()
 }
 
 /// Names of the images without folders, or with them where names repeat.

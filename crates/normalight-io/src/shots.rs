@@ -5,7 +5,7 @@ pub(crate) mod dark;
 pub(crate) mod motion;
 
 use crate::{IoError, Notice};
-use normalight_core::{ImageStack, Mask, Rect, ShotLight, evenly_spaced_indices};
+use normalight_core::{ImageStack, Mask, Rect, ShotLight, evenly_spaced_indices, on_all_cores};
 
 /// Pixels that are looked at in each photograph.
 const PIXELS: usize = 4000;
@@ -34,13 +34,11 @@ pub(crate) fn check(stack: &ImageStack, mask: &Mask) -> Result<Vec<Notice>, IoEr
         .into_iter()
         .map(|place| inside[place])
         .collect();
-    let shots: Vec<Vec<[f32; 3]>> = (0..stack.len())
-        .map(|image| {
-            let mut pixels = vec![[0.0; 3]; chosen.len()];
-            stack.linear_pixels(image, &chosen, &mut pixels);
-            pixels
-        })
-        .collect();
+    let shots = on_all_cores(stack.len(), |image| {
+        let mut pixels = vec![[0.0; 3]; chosen.len()];
+        stack.linear_pixels(image, &chosen, &mut pixels);
+        pixels
+    });
     let name = |image: usize| stack.images()[image].name.clone();
     let mut notices = Vec::new();
     if same_pictures(stack, &shots) {

@@ -1,6 +1,6 @@
 //! Which shots show the same thing.
 use super::shots::Spectra;
-use crate::evenly_spaced_indices;
+use crate::{evenly_spaced_indices, on_all_cores};
 
 /// How far the best fit of two shots of one thing stands out at least, in deviations of the fit over
 /// all shifts. Measured pair by pair on rendered and photographed objects, under lights from any two
@@ -8,28 +8,51 @@ use crate::evenly_spaced_indices;
 /// objects (and up to 28 where both are round).
 const ALIKE: f32 = 10.0;
 
+/// Best fits of so many pixels away are no change of the light.
+const AWAY: f32 = 2.0;
+/// Share of the pairs of one thing that lie apart where shots lie in several places.
+const APART: f32 = 0.25;
+
+/// What shots show, compared pair by pair.
+pub(super) struct Compared {
+    /// Shots that show the same thing, the largest group first.
+    pub(super) groups: Vec<Vec<usize>>,
+    /// Whether many of them lie apart: where most shots lie then tells nothing.
+    pub(super) apart: bool,
+}
+
 /// Groups of shots that show the same thing, the largest first: at most `most` shots, evenly spaced,
 /// are compared, each with each. Shots without clear edges are in no group.
 ///
 /// Groups are joined while the mean fit of their shots is that of one thing (average linkage): one
 /// chance likeness between two objects joins nothing, one pair of lights that have nothing in
 /// common parts nothing.
-pub(super) fn groups(spectra: &Spectra, most: usize) -> Vec<Vec<usize>> {
+pub(super) fn compare(spectra: &Spectra, most: usize) -> Compared {
     let chosen: Vec<usize> = evenly_spaced_indices(spectra.len(), most)
         .into_iter()
         .filter(|&shot| !spectra.is_vague(shot))
         .collect();
     let count = chosen.len();
+    let pairs: Vec<[usize; 2]> = (0..count)
+        .flat_map(|b| (0..b).map(move |a| [a, b]))
+        .collect();
+    let found = on_all_cores(pairs.len(), |pair| {
+        let [first, second] = pairs[pair].map(|place| chosen[place]);
+        spectra.likeness(first, second)
+    });
+    let of_one = || found.iter().filter(|(fit, _)| *fit >= ALIKE);
+    let away = of_one().filter(|(_, away)| *away > AWAY).count();
+    let apart = away as f32 > APART * of_one().count() as f32;
     let mut fits = vec![vec![0.0; count]; count];
-    for (a, &first) in chosen.iter().enumerate() {
-        for (b, &second) in chosen.iter().enumerate().skip(a + 1) {
-            let fit = spectra.likeness(first, second);
-            (fits[a][b], fits[b][a]) = (fit, fit);
-        }
+    for ([a, b], (fit, _)) in pairs.into_iter().zip(found) {
+        (fits[a][b], fits[b][a]) = (fit, fit);
     }
     let joined = average_linkage(&fits, ALIKE);
     let named = |group: Vec<usize>| group.into_iter().map(|place| chosen[place]).collect();
-    joined.into_iter().map(named).collect()
+    Compared {
+        groups: joined.into_iter().map(named).collect(),
+        apart,
+    }
 }
 
 /// Joins the two groups of the largest mean until it is below `least`; the largest group first.

@@ -1,11 +1,15 @@
 //! All shots of a stack laid over each other at once.
 use super::shots::{Fit, Spectra};
+use crate::on_all_cores;
 use rustfft::num_complex::Complex32;
 
-/// Most rounds over all shots.
+/// Most rounds over the shots.
 const ROUNDS: usize = 6;
-/// A round in which no shot moves by more pixels is the last.
+/// A shot that moves by less, in pixels, lies where it belongs.
 const SETTLED: f32 = 0.15;
+/// Of so many shots one, and at most so many, are moved at once, all others lying still: two that exchanged their places
+/// would do so for ever.
+const AT_ONCE: (usize, usize) = (3, 16);
 /// A shift above this, in pixels, is worth a second start.
 const MOVED: f32 = 0.6;
 
@@ -20,19 +24,35 @@ pub(super) struct Placement {
 /// common structure wins.
 ///
 /// The sum is first that of all shots as they lie, which is right if most are unmoved; if some
-/// move, also one that grows shot by shot, which is right if all are moved; the better fit counts.
-pub(super) fn place(spectra: &Spectra) -> Placement {
+/// move, or are known to lie `apart`, also one that grows shot by shot, which is right if all are moved; the better
+/// fit counts.
+pub(super) fn place(spectra: &Spectra, apart: bool) -> Placement {
     let count = spectra.len();
     let mut best = settle(spectra, vec![[0.0; 2]; count]);
     let moved = |shift: &[f32; 2]| shift[0].hypot(shift[1]) > MOVED;
-    if best.0.iter().any(moved) {
+    if apart || best.0.iter().any(moved) {
         let grown = settle(spectra, grown(spectra));
         if grown.1 > 1.001 * best.1 {
             best = grown;
         }
     }
-    let mut shifts = best.0;
-    let seen: Vec<[f32; 2]> = (0..count)
+    let shifts = about_most(spectra, best.0);
+    let sum = sum_of(spectra, &shifts);
+    Placement {
+        fits: on_all_cores(count, |shot| {
+            spectra.fit_to_others(&sum, shot, shifts[shot])
+        }),
+    }
+}
+
+/// Shifts of shots that hardly moved, relative to where most shots lie.
+pub(super) fn place_near(spectra: &Spectra) -> Vec<[f32; 2]> {
+    let shifts = settle(spectra, vec![[0.0; 2]; spectra.len()]).0;
+    about_most(spectra, shifts)
+}
+
+fn about_most(spectra: &Spectra, mut shifts: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
+    let seen: Vec<[f32; 2]> = (0..shifts.len())
         .filter(|&shot| !spectra.is_empty(shot))
         .map(|shot| shifts[shot])
         .collect();
@@ -40,19 +60,15 @@ pub(super) fn place(spectra: &Spectra) -> Placement {
     for shift in &mut shifts {
         *shift = [shift[0] - middle[0], shift[1] - middle[1]];
     }
+    shifts
+}
+
+fn sum_of(spectra: &Spectra, shifts: &[[f32; 2]]) -> Vec<Complex32> {
     let mut sum = spectra.zeros();
     for (shot, &shift) in shifts.iter().enumerate() {
         spectra.add(&mut sum, shot, shift, 1.0);
     }
-    let fits = (0..count).map(|shot| {
-        spectra.add(&mut sum, shot, shifts[shot], -1.0);
-        let fit = spectra.fit(&sum, shot);
-        spectra.add(&mut sum, shot, shifts[shot], 1.0);
-        fit
-    });
-    Placement {
-        fits: fits.collect(),
-    }
+    sum
 }
 
 /// Shifts of each shot against the sum of those before it.
@@ -67,22 +83,29 @@ fn grown(spectra: &Spectra) -> Vec<[f32; 2]> {
         .collect()
 }
 
-/// Rounds from a start; the shifts and the energy of the sum, the larger the better they fit.
+/// Rounds from a start over those that still move; the shifts and the energy of the sum, the larger the better they fit.
 fn settle(spectra: &Spectra, mut shifts: Vec<[f32; 2]>) -> (Vec<[f32; 2]>, f64) {
-    let mut sum = spectra.zeros();
-    for (shot, &shift) in shifts.iter().enumerate() {
-        spectra.add(&mut sum, shot, shift, 1.0);
-    }
+    let mut sum = sum_of(spectra, &shifts);
+    let mut moving: Vec<usize> = (0..shifts.len()).collect();
+    let at_once = (shifts.len() / AT_ONCE.0).clamp(1, AT_ONCE.1);
     for _ in 0..ROUNDS {
-        let mut farthest = 0.0f32;
-        for (shot, shift) in shifts.iter_mut().enumerate() {
-            spectra.add(&mut sum, shot, *shift, -1.0);
-            let found = spectra.fit(&sum, shot).shift;
-            farthest = farthest.max((found[0] - shift[0]).hypot(found[1] - shift[1]));
-            *shift = found;
-            spectra.add(&mut sum, shot, *shift, 1.0);
+        let mut moved = Vec::new();
+        for shots in moving.chunks(at_once) {
+            let found = on_all_cores(shots.len(), |place| {
+                let shot = shots[place];
+                spectra.fit_to_others(&sum, shot, shifts[shot]).shift
+            });
+            for (&shot, found) in shots.iter().zip(found) {
+                let old = std::mem::replace(&mut shifts[shot], found);
+                spectra.add(&mut sum, shot, old, -1.0);
+                spectra.add(&mut sum, shot, found, 1.0);
+                if (found[0] - old[0]).hypot(found[1] - old[1]) >= SETTLED {
+                    moved.push(shot);
+                }
+            }
         }
-        if farthest < SETTLED {
+        moving = moved;
+        if moving.is_empty() {
             break;
         }
     }

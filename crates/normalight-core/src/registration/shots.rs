@@ -2,6 +2,7 @@
 use super::edges::edges;
 use super::spectrum::{Transform, frequencies};
 use super::view::Picture;
+use crate::on_all_cores;
 use rustfft::num_complex::Complex32;
 
 /// Shifts up to this share of a picture's shorter side are looked for; larger than the first only where the fit stands out
@@ -20,6 +21,8 @@ const VAGUE: f32 = 0.01;
 /// Places between the pixels at which a fit is evaluated, along each axis, and the distance between
 /// them in pixels.
 const FINE: usize = 7;
+/// Those of one axis side by side, a whole number of registers.
+const LANES: usize = 8;
 const SPACING: f32 = 0.125;
 
 /// Whitened spectra of the edges of shots of one size, each of unit energy or zero.
@@ -45,20 +48,24 @@ pub(super) struct Fit {
 }
 
 impl Spectra {
-    pub(super) fn new(pictures: impl Iterator<Item = Picture>, size: [usize; 2]) -> Self {
+    /// Of `count` pictures of one size.
+    pub(super) fn new(
+        (count, picture): (usize, impl Fn(usize) -> Picture + Sync + Send),
+        size: [usize; 2],
+    ) -> Self {
         let [width, height] = size;
         let range = (width.min(height) / FAR).max(4);
         let near = (width.min(height) / NEAR).max(4);
         // The empty border keeps usual shifts from meeting the other side; of larger ones a part does, as noise.
         let transform = Transform::at_least(width + near, height + near);
-        let (spectra, clear) = pictures
-            .map(|picture| {
-                let edges = edges(&picture);
-                let clear = edges.iter().filter(|edge| edge.norm_sqr() > 0.25).count();
-                let share = clear as f32 / edges.len() as f32;
-                (whitened(&transform, &edges, picture.width), share)
-            })
-            .unzip();
+        let of_shot = |shot: usize| {
+            let picture = picture(shot);
+            let edges = edges(&picture);
+            let clear = edges.iter().filter(|edge| edge.norm_sqr() > 0.25).count();
+            let share = clear as f32 / edges.len() as f32;
+            (whitened(&transform, &edges, picture.width), share)
+        };
+        let (spectra, clear) = on_all_cores(count, of_shot).into_iter().unzip();
         Self {
             transform,
             range,
@@ -104,9 +111,31 @@ impl Spectra {
         }
     }
 
-    /// How a shot fits a sum of others (or one of them), without the shot itself.
+    /// How a shot fits a sum of others.
     pub(super) fn fit(&self, reference: &[Complex32], shot: usize) -> Fit {
-        let product = self.product(reference, shot);
+        self.fit_of(self.product(reference, shot))
+    }
+
+    /// How a shot fits a sum in which it lies itself, moved back by `shift`: without its own part.
+    pub(super) fn fit_to_others(&self, sum: &[Complex32], shot: usize, shift: [f32; 2]) -> Fit {
+        let height = self.transform.height;
+        let across = turn(self.transform.width, shift[0]);
+        let down = turn(height, shift[1]);
+        let lines = sum
+            .chunks_exact(height)
+            .zip(self.spectra[shot].chunks_exact(height));
+        let mut product = Vec::with_capacity(sum.len());
+        for ((sums, values), across) in lines.zip(across) {
+            let entries = sums.iter().zip(values).zip(&down);
+            product.extend(
+                entries.map(|((sum, value), down)| (sum - value * across * down).conj() * value),
+            );
+        }
+        self.fit_of(product)
+    }
+
+    /// The best fit by the product of two spectra.
+    fn fit_of(&self, product: Vec<Complex32>) -> Fit {
         let surface = self.transform.inverse(product.clone());
         let deviation = deviation(&surface);
         if deviation <= NOTHING {
@@ -152,13 +181,21 @@ impl Spectra {
         }
     }
 
-    /// How far the best fit of two shots stands out over all shifts, however large.
-    pub(super) fn likeness(&self, a: usize, b: usize) -> f32 {
+    /// How far the best fit of two shots stands out over all shifts, however large, and how many pixels away it is.
+    pub(super) fn likeness(&self, a: usize, b: usize) -> (f32, f32) {
         let surface = self.transform.inverse(self.product(&self.spectra[a], b));
-        let best = surface.iter().map(|value| value.re).fold(0.0, f32::max);
+        let (mut best, mut place) = (0.0, 0);
+        for (at, value) in surface.iter().enumerate() {
+            if value.re > best {
+                (best, place) = (value.re, at);
+            }
+        }
+        let around = |place: usize, length: usize| place.min(length - place) as f32;
+        let width = self.transform.width;
+        let away = around(place % width, width).hypot(around(place / width, self.transform.height));
         match deviation(&surface) {
-            deviation if deviation > NOTHING => best / deviation,
-            _ => 0.0,
+            deviation if deviation > NOTHING => (best / deviation, away),
+            _ => (0.0, 0.0),
         }
     }
 
@@ -172,17 +209,30 @@ impl Spectra {
     fn refined(&self, product: &[Complex32], near: [f32; 2]) -> [f32; 2] {
         let (width, height) = (self.transform.width, self.transform.height);
         let offset = |place: usize| (place as f32 - (FINE / 2) as f32) * SPACING;
-        let turns = |axis: usize, length: usize| -> Vec<Vec<Complex32>> {
-            let places = (0..FINE).map(|place| turn(length, near[axis] + offset(place)));
-            places.collect()
+        // All places beside each other, so that they are summed side by side.
+        let turns = |axis: usize, length: usize| -> Vec<[[f32; LANES]; 2]> {
+            let mut all = vec![[[0.0; LANES]; 2]; length];
+            for place in 0..FINE {
+                let turns = turn(length, near[axis] + offset(place));
+                for (lanes, turn) in all.iter_mut().zip(turns) {
+                    (lanes[0][place], lanes[1][place]) = (turn.re, turn.im);
+                }
+            }
+            all
         };
         let (across, down) = (turns(0, width), turns(1, height));
-        let mut fine = [[0.0f32; FINE]; FINE];
-        for (column, line) in product.chunks_exact(height).enumerate() {
-            for (row, down) in fine.iter_mut().zip(&down) {
-                let sum: Complex32 = line.iter().zip(down).map(|(a, b)| a * b).sum();
-                for (value, across) in row.iter_mut().zip(&across) {
-                    *value += (sum * across[column]).re;
+        let mut fine = [[0.0f32; LANES]; FINE];
+        for (line, [across_re, across_im]) in product.chunks_exact(height).zip(&across) {
+            let (mut re, mut im) = ([0.0f32; LANES], [0.0f32; LANES]);
+            for (value, [down_re, down_im]) in line.iter().zip(&down) {
+                for lane in 0..LANES {
+                    re[lane] += value.re * down_re[lane] - value.im * down_im[lane];
+                    im[lane] += value.re * down_im[lane] + value.im * down_re[lane];
+                }
+            }
+            for (y, row) in fine.iter_mut().enumerate() {
+                for (lane, value) in row.iter_mut().enumerate() {
+                    *value += re[y] * across_re[lane] - im[y] * across_im[lane];
                 }
             }
         }

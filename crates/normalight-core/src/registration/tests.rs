@@ -132,6 +132,15 @@ proptest! {
 }
 
 #[test]
+fn a_camera_that_stood_in_two_places_is_found() {
+    let shifts: Vec<[f32; 2]> = (0..10)
+        .map(|k| if k < 5 { [0.0; 2] } else { [21.0, -9.0] })
+        .collect();
+    let found = register_shots(&stack(&shifts), &disc()).shifts;
+    assert!(farthest(&found, &shifts) < 0.5, "{found:?}");
+}
+
+#[test]
 fn moved_back_a_shot_shows_what_the_still_camera_saw() {
     let shift = [2.3, -1.6];
     let still = shot(lamp(2), [0.0; 2], 1.0);

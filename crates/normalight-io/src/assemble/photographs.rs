@@ -6,7 +6,10 @@ use crate::plan::StackPlan;
 use crate::turn::{swaps_sides, turned};
 use crate::{IoError, Limits, Notice, ReadOptions};
 use image::metadata::Orientation;
-use normalight_core::{MIN_IMAGES, Mask, Samples, StackImage};
+use normalight_core::{MIN_IMAGES, Mask, Samples, StackImage, on_all_cores};
+
+/// Files that are in memory beside what they decode to.
+const AT_ONCE: usize = 8;
 
 /// The decoded photographs and what was found out on the way.
 pub(super) struct Shots {
@@ -34,31 +37,43 @@ pub(super) fn read_shots(
     let (mut stated, mut turns, mut notices) = (Vec::new(), Vec::new(), Vec::new());
     let mut alpha = None;
     let mut total = 0;
-    for &position in picked {
-        let index = plan.images[position];
-        let Stored {
-            image,
-            alpha: transparent,
-            orientation,
-            stated: says,
-            notices: more,
-        } = decode_stored(&names[index], &load(index)?, options.color, &options.limits)?;
-        let image = StackImage {
-            name: base_name(&names[index]).to_owned(),
-            ..image
-        };
-        // The images may differ in depth, so the sum is watched as well as the forecast.
-        total += sample_bytes(&image);
-        let forecast = sample_bytes(&image) * picked.len() as u64;
-        let need = if images.is_empty() { forecast } else { total };
-        check_total(&image, picked.len(), need, &options.limits)?;
-        if images.is_empty() {
-            alpha = transparent;
+    // The first one by itself: it forecasts how much memory all need.
+    let (first, others) = picked.split_at(picked.len().min(1));
+    for positions in std::iter::once(first).chain(others.chunks(AT_ONCE)) {
+        let mut files = Vec::with_capacity(positions.len());
+        for &position in positions {
+            let index = plan.images[position];
+            files.push((&names[index], load(index)?));
         }
-        images.push(image);
-        stated.push(says);
-        turns.push(orientation);
-        notices.extend(more);
+        let decoded = on_all_cores(files.len(), |file| {
+            let (name, bytes) = &files[file];
+            decode_stored(name, bytes, options.color, &options.limits)
+        });
+        for (decoded, (name, _)) in decoded.into_iter().zip(&files) {
+            let Stored {
+                image,
+                alpha: transparent,
+                orientation,
+                stated: says,
+                notices: more,
+            } = decoded?;
+            let image = StackImage {
+                name: base_name(name).to_owned(),
+                ..image
+            };
+            // The images may differ in depth, so the sum is watched as well as the forecast.
+            total += sample_bytes(&image);
+            let forecast = sample_bytes(&image) * picked.len() as u64;
+            let need = if images.is_empty() { forecast } else { total };
+            check_total(&image, picked.len(), need, &options.limits)?;
+            if images.is_empty() {
+                alpha = transparent;
+            }
+            images.push(image);
+            stated.push(says);
+            turns.push(orientation);
+            notices.extend(more);
+        }
     }
     let mut picked = picked.to_vec();
     let upright = upright_alone(&images, &turns);

@@ -1,9 +1,11 @@
 //! Squares of pixels, and the light that the photographs show in them.
-use crate::ImageStack;
+use crate::{ImageStack, on_all_cores};
 
 /// Samples along each side of a large cell: enough against noise and the camera's mosaic, and few
 /// enough that large photographs need not be read whole.
 const POINTS: usize = 3;
+/// Cells that one core looks at, one image after the other.
+pub(super) const PART: usize = 4096;
 
 /// The frame in square cells.
 #[derive(Debug, Clone, Copy)]
@@ -92,21 +94,31 @@ impl Cells {
         grid: Grid,
         places: Vec<usize>,
     ) -> Self {
-        let pixels: Vec<usize> = places.iter().flat_map(|&cell| grid.pixels(cell)).collect();
         let (count, points) = (images.len(), grid.points() * grid.points());
-        let mut samples = vec![[0.0; 3]; pixels.len()];
-        let mut light = vec![0.0; places.len() * count];
-        let mut colours = vec![[0.0; 3]; places.len()];
-        for (k, &image) in images.iter().enumerate() {
-            stack.linear_pixels(image, &pixels, &mut samples);
-            for (cell, samples) in samples.chunks_exact(points).enumerate() {
-                for channel in 0..3 {
-                    let sum: f32 = samples.iter().map(|sample| sample[channel]).sum();
-                    let mean = sum / points as f32;
-                    light[cell * count + k] += mean / 3.0;
-                    colours[cell][channel] += mean / count as f32;
+        let parts: Vec<&[usize]> = places.chunks(PART).collect();
+        let looked = on_all_cores(parts.len(), |part| {
+            let cells = parts[part];
+            let pixels: Vec<usize> = cells.iter().flat_map(|&cell| grid.pixels(cell)).collect();
+            let mut samples = vec![[0.0; 3]; pixels.len()];
+            let mut light = vec![0.0; cells.len() * count];
+            let mut colours = vec![[0.0; 3]; cells.len()];
+            for (k, &image) in images.iter().enumerate() {
+                stack.linear_pixels(image, &pixels, &mut samples);
+                for (cell, samples) in samples.chunks_exact(points).enumerate() {
+                    for channel in 0..3 {
+                        let sum: f32 = samples.iter().map(|sample| sample[channel]).sum();
+                        let mean = sum / points as f32;
+                        light[cell * count + k] += mean / 3.0;
+                        colours[cell][channel] += mean / count as f32;
+                    }
                 }
             }
+            (light, colours)
+        });
+        let (mut light, mut colours) = (Vec::new(), Vec::new());
+        for (more_light, more_colours) in looked {
+            light.extend(more_light);
+            colours.extend(more_colours);
         }
         Self {
             grid,

@@ -1,6 +1,7 @@
 //! What tells object and background apart at one place, and by how much.
-use super::cells::Cells;
+use super::cells::{Cells, PART};
 use super::shading::{Series, Shading, spread, surfaces};
+use crate::on_all_cores;
 
 /// Numbers that a cell is judged by: how unlike the background it shades, how bright it is beside it,
 /// and two of colour. All are logarithms.
@@ -28,26 +29,32 @@ impl Background {
 
     /// What cells are judged by.
     pub(super) fn features(&self, cells: &Cells) -> Vec<Features> {
-        let mut rest = vec![0.0; cells.images];
+        let parts = on_all_cores(cells.len().div_ceil(PART), |part| {
+            let mut rest = vec![0.0; cells.images];
+            (part * PART..cells.len().min((part + 1) * PART))
+                .map(|cell| self.features_of(cells, cell, &mut rest))
+                .collect::<Vec<Features>>()
+        });
+        parts.into_iter().flatten().collect()
+    }
+
+    /// What one cell is judged by; `rest` is room for one number an image.
+    fn features_of(&self, cells: &Cells, cell: usize, rest: &mut [f32]) -> Features {
+        let place = cells.grid.centre(cells.places[cell]);
+        let (mut unlike, mut level) = (f32::MAX, 0.0);
+        for surface in &self.surfaces {
+            for (value, light) in rest.iter_mut().zip(cells.light(cell)) {
+                *value = libm::logf(light + self.floor);
+            }
+            surface.add_to(place, -1.0, rest);
+            let (half, middle) = spread(rest);
+            if half < unlike {
+                (unlike, level) = (half, middle);
+            }
+        }
         let chroma_floor = 2.0 * self.floor;
-        (0..cells.len())
-            .map(|cell| {
-                let place = cells.grid.centre(cells.places[cell]);
-                let (mut unlike, mut level) = (f32::MAX, 0.0);
-                for surface in &self.surfaces {
-                    for (value, light) in rest.iter_mut().zip(cells.light(cell)) {
-                        *value = libm::logf(light + self.floor);
-                    }
-                    surface.add_to(place, -1.0, &mut rest);
-                    let (half, middle) = spread(&mut rest);
-                    if half < unlike {
-                        (unlike, level) = (half, middle);
-                    }
-                }
-                let [r, g, b] = cells.colours[cell].map(|value| libm::logf(value + chroma_floor));
-                [libm::logf(unlike + SHADING_FLOOR), level, r - g, b - g]
-            })
-            .collect()
+        let [r, g, b] = cells.colours[cell].map(|value| libm::logf(value + chroma_floor));
+        [libm::logf(unlike + SHADING_FLOOR), level, r - g, b - g]
     }
 }
 

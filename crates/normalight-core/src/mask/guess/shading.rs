@@ -5,6 +5,7 @@
 //! mean over the images is free of the colour, so a table top has one such series whatever is printed
 //! on it; a background that the lamp does not reach has one too. Surfaces turned otherwise have others.
 use super::cells::Cells;
+use crate::on_all_cores;
 
 /// Most surfaces of a background: a table top, a wall, another.
 const SURFACES: usize = 3;
@@ -194,14 +195,21 @@ pub(super) fn surfaces(border: &Series) -> (Vec<Shading>, Vec<bool>) {
 /// The cell whose series most of the others are like, as a surface, and those others.
 fn most_alike(series: &Series, among: &[usize]) -> (Shading, Vec<usize>) {
     const TRIED: usize = 48;
+    const ASKED: usize = 1000;
+    let asked: Vec<usize> = crate::evenly_spaced_indices(among.len(), ASKED)
+        .into_iter()
+        .map(|place| among[place])
+        .collect();
     let trials = crate::evenly_spaced_indices(among.len(), TRIED);
-    let found = trials.into_iter().map(|index| {
-        let shading = Shading::constant(series.of(among[index]));
-        let inliers = shading.inliers(series, among, TOLERANCE[1]);
+    let found = on_all_cores(trials.len(), |trial| {
+        let shading = Shading::constant(series.of(among[trials[trial]]));
+        let inliers = shading.inliers(series, &asked, TOLERANCE[1]).len();
         (shading, inliers)
     });
-    let most = found.max_by_key(|(_, inliers)| inliers.len());
-    most.unwrap_or_else(|| (Shading::constant(series.of(0)), Vec::new()))
+    let most = found.into_iter().max_by_key(|(_, inliers)| *inliers);
+    let shading = most.map_or_else(|| Shading::constant(series.of(0)), |(shading, _)| shading);
+    let inliers = shading.inliers(series, among, TOLERANCE[1]);
+    (shading, inliers)
 }
 
 fn terms([x, y]: [f32; 2]) -> [f64; TERMS] {
