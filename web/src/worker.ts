@@ -95,7 +95,8 @@ async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["e
 
 async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks["unpack"]["response"]> {
   const plan = wasm.plan(await Promise.all(files.map(readForPlan)));
-  if (plan.images.length > 0) return undefined;
+  // The pages of a single picture may be the photographs.
+  if (plan.images.length > 1) return undefined;
   const unpacked: File[] = [];
   const archives: string[] = [];
   for (const file of files) {

@@ -2,6 +2,7 @@
 //! written to a disk.
 mod kind;
 mod name;
+mod pages;
 mod tar;
 mod zip;
 
@@ -151,6 +152,7 @@ impl Archive {
             ArchiveKind::Zip => zip::open(source, length)?,
             ArchiveKind::Tar => tar::open(source, length)?,
             ArchiveKind::TarGz => tar::unpack(source, length)?,
+            ArchiveKind::Pages => pages::open(name, source)?,
             ArchiveKind::Unread(_) => {
                 return Err(Fault::new(
                     "a format that is not read",
@@ -176,6 +178,11 @@ impl Archive {
             links,
             content,
         })
+    }
+
+    /// Whether it is a picture file whose pages are the photographs.
+    pub(crate) fn is_paged(&self) -> bool {
+        self.kind == ArchiveKind::Pages
     }
 
     /// The error for an archive with this one in place of photographs.

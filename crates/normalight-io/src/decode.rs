@@ -7,6 +7,8 @@ mod raw;
 mod source;
 mod tiff;
 
+pub(crate) use tiff::paged::PagedTiff;
+
 use crate::color::{ColorMode, Encoding, Statement};
 use crate::format::{detect_format, format_name, format_of_extension, split_extension};
 use crate::turn::turned;

@@ -22,6 +22,8 @@ pub(crate) struct LightRow {
 pub(crate) struct LightFile {
     pub(crate) name: String,
     pub(crate) rows: Vec<LightRow>,
+    /// The first of the running numbers that the rows had beside them.
+    pub(crate) numbered_from: Option<usize>,
     pub(crate) axes: LightAxes,
     /// The file that says how bright the lights are: this one or one beside it.
     pub(crate) intensities: Option<String>,
@@ -54,6 +56,7 @@ impl LightFile {
         let mut file = Self {
             name: name.to_owned(),
             rows: Vec::new(),
+            numbered_from: None,
             axes: LightAxes::default(),
             intensities: None,
             notices: Vec::new(),
@@ -65,6 +68,7 @@ impl LightFile {
         if let Some(table) = light_table::parse(name, &read_text(name, bytes)?) {
             let table = table?;
             file.rows = table.rows;
+            file.numbered_from = table.numbered_from;
             file.intensities = table.intensities.then(|| name.to_owned());
             if let Some(unit) = table.angles {
                 file.notices.push(Notice::LightsAsAngles {
@@ -99,6 +103,7 @@ impl LightFile {
             }
             error => error,
         })?;
+        self.numbered_from = lines.numbered_from;
         for row in &lines.rows {
             let (vector, intensity) = match row.numbers[..] {
                 [x, y, z] => ([x, y, z], [1.0; 3]),

@@ -15,6 +15,9 @@ impl LightFile {
         if let Some(matched) = self.by_name(file_names) {
             return self.named(matched?);
         }
+        if let Some(rows) = self.by_running_number(file_names) {
+            return self.named((rows, NameMatch::Number));
+        }
         let (rows, notices) = self.by_position(file_names)?;
         self.given(&rows, NameMatch::Position, notices)
     }
@@ -27,6 +30,12 @@ impl LightFile {
         }
         if self.rows.len() == names.len() {
             return self.for_images(&names);
+        }
+        // As many as were found are for those, by their order.
+        if self.rows.len() != input.file_names.len()
+            && let Some(rows) = self.by_running_number(&names)
+        {
+            return self.named((rows, NameMatch::Number));
         }
         let (all, notices) = self.by_position(&input.file_names)?;
         let rows: Vec<usize> = input.picked.iter().map(|&index| all[index]).collect();
@@ -96,6 +105,16 @@ impl LightFile {
             return wrong(found, "one light for each photograph".to_owned());
         }
         Some(Ok((rows, least)))
+    }
+
+    /// Of more lights than photographs, numbered from the first: those with the numbers in the photographs' names.
+    fn by_running_number(&self, file_names: &[String]) -> Option<Vec<usize>> {
+        let first = self
+            .numbered_from
+            .filter(|_| self.rows.len() > file_names.len())?;
+        let images: Vec<NameKey> = file_names.iter().map(|name| NameKey::new(name)).collect();
+        let keys = (0..self.rows.len()).map(|row| NameKey::new(&(first + row).to_string()));
+        by_number(&images, &keys.collect::<Vec<_>>())
     }
 
     /// The first light belongs to the first image, unless the numbers in the names say otherwise.

@@ -1,7 +1,7 @@
 //! Light files with a heading: our `lights.csv`, also after a spreadsheet, and tables of angles.
 use crate::IoError;
 use crate::light_file::LightRow;
-use crate::light_text::{check_direction, is_intensity, parse_number, wrong_line};
+use crate::light_text::{check_direction, first_running, is_intensity, parse_number, wrong_line};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use normalight_core::Vec3;
 
@@ -42,6 +42,8 @@ enum Direction {
 /// The rows of a table.
 pub(crate) struct Table {
     pub(crate) rows: Vec<LightRow>,
+    /// The first of the running numbers that the rows had.
+    pub(crate) numbered_from: Option<usize>,
     /// Whether a column says how bright the lights are.
     pub(crate) intensities: bool,
     /// The unit of the angles, when there were any.
@@ -187,29 +189,27 @@ fn table(
             confidence,
         });
     }
-    if columns.place(FILE).is_none() {
-        by_running_number(&mut rows);
-    }
+    let numbered_from = match columns.place(FILE) {
+        None => by_running_number(&mut rows),
+        Some(_) => None,
+    };
     let angles = radians.map(|radians| if radians { "radians" } else { "degrees" });
     Ok(Table {
         rows,
+        numbered_from,
         intensities: columns.place(INTENSITY).is_some(),
         angles,
     })
 }
 
-/// Numbers that run from 0 or 1 are places in the order of the photographs; others may be in their names.
-fn by_running_number(rows: &mut Vec<LightRow>) {
+/// Brings rows into the order of their numbers where those run, and takes the numbers away; gives the first.
+fn by_running_number(rows: &mut Vec<LightRow>) -> Option<usize> {
     let numbers = rows.iter().map(|row| row.file.as_deref()?.parse().ok());
-    let Some(numbers) = numbers.collect::<Option<Vec<usize>>>() else {
-        return;
-    };
+    let numbers = numbers.collect::<Option<Vec<usize>>>()?;
+    let first = first_running(&numbers)?;
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(|&row| numbers[row]);
-    let first = order.first().map_or(0, |&row| numbers[row]);
-    let runs = |(place, &row): (usize, &usize)| numbers[row] == first + place;
-    if first <= 1 && order.iter().enumerate().all(runs) {
-        *rows = order.into_iter().map(|row| rows[row].clone()).collect();
-        rows.iter_mut().for_each(|row| row.file = None);
-    }
+    *rows = order.into_iter().map(|row| rows[row].clone()).collect();
+    rows.iter_mut().for_each(|row| row.file = None);
+    Some(first)
 }

@@ -24,6 +24,8 @@ pub(crate) struct Rows {
     pub(crate) rows: Vec<Row>,
     /// The number of lines, when the first line says it.
     pub(crate) declared: Option<usize>,
+    /// The first of the running numbers that the lines had.
+    pub(crate) numbered_from: Option<usize>,
 }
 
 /// Lines of `count` numbers (see [`parse_rows`]'s callers), whose first may be the number of lines
@@ -40,29 +42,41 @@ pub(crate) fn parse_rows(name: &str, bytes: &[u8]) -> Result<Rows, IoError> {
     if declared.is_some() {
         rows.remove(0);
     }
-    drop_running_numbers(&mut rows);
-    Ok(Rows { rows, declared })
+    Ok(Rows {
+        numbered_from: drop_running_numbers(&mut rows),
+        rows,
+        declared,
+    })
 }
 
-fn drop_running_numbers(rows: &mut Vec<Row>) {
-    let Some(width) = rows.first().map(|row| row.numbers.len()) else {
-        return;
-    };
+fn drop_running_numbers(rows: &mut [Row]) -> Option<usize> {
+    let width = rows.first()?.numbers.len();
     let numbered = |row: &Row| row.file.is_none() && row.numbers.len() == width;
     if !matches!(width, 2 | 4 | 7) || !rows.iter().all(numbered) {
-        return;
+        return None;
     }
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_by(|&a, &b| rows[a].numbers[0].total_cmp(&rows[b].numbers[0]));
-    let first = rows[order[0]].numbers[0];
-    let runs = |(place, &row): (usize, &usize)| rows[row].numbers[0] == first + place as f32;
-    if !matches!(first, 0.0 | 1.0) || !order.iter().enumerate().all(runs) {
-        return;
-    }
+    let whole = |row: &Row| {
+        let number = row.numbers[0];
+        // A cast of other numbers gives another number.
+        (number as usize as f32 == number).then_some(number as usize)
+    };
+    let numbers: Vec<usize> = rows.iter().map(whole).collect::<Option<_>>()?;
+    let first = first_running(&numbers)?;
     rows.sort_by(|a, b| a.numbers[0].total_cmp(&b.numbers[0]));
     for row in rows {
         row.numbers.remove(0);
     }
+    Some(first)
+}
+
+/// The first of numbers that run from 0 or 1, in any order: places in the order of the photographs. `None` of others,
+/// which may be in their names.
+pub(crate) fn first_running(numbers: &[usize]) -> Option<usize> {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_unstable();
+    let first = *sorted.first()?;
+    let mut places = sorted.iter().enumerate();
+    (first <= 1 && places.all(|(place, &number)| number == first + place)).then_some(first)
 }
 
 pub(crate) fn check_count(name: &str, found: usize, expected: usize) -> Result<(), IoError> {

@@ -34,6 +34,15 @@ pub enum Notice {
         /// photograph or two each.
         folder: String,
     },
+    /// The photographs lie in folders of their own, one in each.
+    OneInEachFolder,
+    /// The pages of a file were taken as the photographs.
+    PagesAsPhotographs {
+        /// The file.
+        file: String,
+        /// Number of pages.
+        pages: usize,
+    },
     /// A list names files with other extensions than they have.
     ListByStem {
         /// The list.

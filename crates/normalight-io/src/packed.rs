@@ -1,7 +1,8 @@
-//! The capture in archives.
+//! The capture in archives, or in the pages of one file.
 mod place;
 
 use crate::archive::{Archive, ArchiveKind, HEAD, ReadLimits};
+use crate::decode::PagedTiff;
 use crate::format::{base_name, format_of_extension, split_extension};
 use crate::input_plan::{LeftOut, LeftOutReason};
 use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
@@ -94,9 +95,15 @@ impl Packed {
                     .unwrap_or_default()
                     .trim_start_matches('/')
                     .to_owned();
-                notices.push(Notice::FromArchive {
-                    archive: name,
-                    folder,
+                notices.push(match archive.is_paged() {
+                    true => Notice::PagesAsPhotographs {
+                        file: name,
+                        pages: archive.files.len(),
+                    },
+                    false => Notice::FromArchive {
+                        archive: name,
+                        folder,
+                    },
                 });
             } else {
                 left_out.push(LeftOut::new(&name, LeftOutReason::NotAnImage));
@@ -181,12 +188,46 @@ impl Opened {
                 None => loose.push(index),
             }
         }
+        if archives.is_empty()
+            && let Some(place) = paged(files, &loose)?
+        {
+            let index = loose.remove(place);
+            let label = files.label(index);
+            let source = files.open(index)?;
+            archives.push(Archive::open(&label, ArchiveKind::Pages, source)?);
+        }
         Ok(Self {
             archives,
             loose,
             notices,
         })
     }
+}
+
+/// The place of the only TIFF file among some, where its pages are enough for a stack.
+fn paged(files: &mut dyn LooseFiles, among: &[usize]) -> Result<Option<usize>, IoError> {
+    let mut found = None;
+    for (place, &index) in among.iter().enumerate() {
+        if !is_helper(&files.names()[index]) && is_tiff(&files.head(index, HEAD)?) {
+            if found.is_some() {
+                return Ok(None);
+            }
+            found = Some(place);
+        }
+    }
+    let mut is_paged = false;
+    if let Some(place) = found {
+        files.look(among[place], &mut |bytes| {
+            is_paged = PagedTiff::is_one(bytes)
+        })?;
+    }
+    Ok(found.filter(|_| is_paged))
+}
+
+fn is_tiff(head: &[u8]) -> bool {
+    [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"]
+        .iter()
+        .any(|mark| head.starts_with(*mark))
 }
 
 /// What stands before the paths of each archive's files, with a slash: its name, or the way to it
@@ -254,7 +295,8 @@ fn check_pictures(archives: &[Archive], paths: &[String]) -> Result<(), IoError>
 pub struct UnpackedFiles(Packed);
 
 impl UnpackedFiles {
-    /// Opens an archive; `None` for a file that is none by its content and its extension.
+    /// Opens an archive; `None` for a file that is none by its content and its extension. A TIFF whose pages are
+    /// enough for a stack counts as one.
     ///
     /// # Errors
     /// [`IoError::Archive`], and [`IoError::PhotographsBelow`] for several captures.
@@ -293,9 +335,9 @@ impl UnpackedFiles {
     }
 }
 
-/// Whether a file is an archive, or says so by its name: `head` are its first bytes, 512 of them
-/// where it has as many.
+/// Whether a file may hold several photographs: an archive, by its content or its name, or a TIFF, which may have pages.
+/// `head` are its first bytes, 512 of them where it has as many.
 pub fn is_archive(name: &str, head: &[u8]) -> bool {
     let kind = ArchiveKind::of_content(head).or_else(|| ArchiveKind::of_extension(name));
-    kind.is_some() && !is_helper(name)
+    (kind.is_some() || is_tiff(head)) && !is_helper(name)
 }

@@ -206,12 +206,14 @@ fn listed<S: AsRef<str>>(
     })
 }
 
-/// The same shots in two formats or depths: nobody can tell which are meant.
+/// The same shots in two formats, depths or sizes: nobody can tell which are meant.
 fn check_copies<S: AsRef<str>>(images: &[usize], names: &[S]) -> Result<(), IoError> {
     let mut shots: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for &index in images {
         let name = names[index].as_ref();
-        shots.entry(folded(stem(name))).or_default().push(name);
+        let stem = folded(stem(name));
+        let shot = kinds::without_variant(&stem).to_owned();
+        shots.entry(shot).or_default().push(name);
     }
     let twice: Vec<&Vec<&str>> = shots.values().filter(|shot| shot.len() > 1).collect();
     // One picture in each of many folders may well be called the same.

@@ -35,6 +35,9 @@ pub(crate) trait LooseFiles: FileSource {
     /// A file to be read piece by piece, which is handed out once.
     fn open(&mut self, index: usize) -> Result<Box<dyn Source>, IoError>;
 
+    /// Shows the bytes of a file, which stays to be taken.
+    fn look(&mut self, index: usize, at: &mut dyn FnMut(&[u8])) -> Result<(), IoError>;
+
     /// Says where photographs are when there are none among the files.
     fn look_elsewhere(&self) -> Result<(), IoError> {
         Ok(())
@@ -79,6 +82,11 @@ impl FileSource for MemoryFiles {
 impl LooseFiles for MemoryFiles {
     fn open(&mut self, index: usize) -> Result<Box<dyn Source>, IoError> {
         Ok(Box::new(Cursor::new(self.take(index)?)))
+    }
+
+    fn look(&mut self, index: usize, at: &mut dyn FnMut(&[u8])) -> Result<(), IoError> {
+        at(&self.contents[index]);
+        Ok(())
     }
 }
 

@@ -11,6 +11,8 @@ pub(crate) enum ArchiveKind {
     Tar,
     /// A tar archive within gzip, or so it is hoped.
     TarGz,
+    /// A TIFF whose pages are photographs.
+    Pages,
     /// An archive in a format that is not read, by its name.
     Unread(&'static str),
 }
@@ -22,6 +24,7 @@ impl ArchiveKind {
             Self::Zip => "zip",
             Self::Tar => "tar",
             Self::TarGz => "tar.gz",
+            Self::Pages => "TIFF of several pages",
             Self::Unread(name) => name,
         }
     }

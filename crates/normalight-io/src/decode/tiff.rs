@@ -4,6 +4,8 @@ mod codes;
 mod colors;
 pub(super) mod directory;
 mod layout;
+mod new_directory;
+pub(crate) mod paged;
 mod pages;
 mod tags;
 

@@ -2,7 +2,7 @@
 use super::files::{display, file_name, read_error};
 use crate::IoError;
 use crate::limits::MAX_FILES;
-use crate::plan::plan_stack;
+use crate::plan::{is_helper, plan_stack};
 use normalight_core::MIN_IMAGES;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,6 +51,30 @@ pub(super) fn look_below(folder: &Path) -> Result<(), IoError> {
         });
     }
     Ok(())
+}
+
+/// The files in a folder without photographs and in the folders in it, where each of those holds one photograph: one
+/// folder for each light.
+pub(super) fn one_in_each(folder: &Path) -> std::io::Result<Option<Vec<PathBuf>>> {
+    let (names, folders) = entries(folder)?;
+    let photographs =
+        |names: &[String]| plan_stack(names, None).map_or(0, |plan| plan.images.len());
+    let folders: Vec<PathBuf> = folders
+        .into_iter()
+        .filter(|path| !is_helper(&file_name(path)))
+        .collect();
+    if photographs(&names) > 0 || folders.len() < MIN_IMAGES || folders.len() > MAX_FILES {
+        return Ok(None);
+    }
+    let mut paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
+    for below in folders {
+        let (names, _) = entries(&below)?;
+        if photographs(&names) != 1 {
+            return Ok(None);
+        }
+        paths.extend(names.iter().map(|name| below.join(name)));
+    }
+    Ok((paths.len() <= MAX_FILES).then_some(paths))
 }
 
 /// Names of the files in a folder, and paths of the folders; links to folders are not followed, which may be circles.

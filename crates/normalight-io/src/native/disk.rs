@@ -97,6 +97,11 @@ impl LooseFiles for DiskFiles {
         Ok(Box::new(BufReader::new(file)))
     }
 
+    fn look(&mut self, index: usize, at: &mut dyn FnMut(&[u8])) -> Result<(), IoError> {
+        at(&read_file(&self.paths[index], self.limits.file_bytes)?);
+        Ok(())
+    }
+
     fn look_elsewhere(&self) -> Result<(), IoError> {
         self.folder.as_deref().map_or(Ok(()), look_below)
     }

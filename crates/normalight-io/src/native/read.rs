@@ -1,3 +1,4 @@
+use super::below::one_in_each;
 use super::disk::DiskFiles;
 use super::files::{display, file_name, read_error, read_file};
 use super::inside::read_folder_inside;
@@ -7,7 +8,7 @@ use crate::light_file::GivenLights;
 use crate::light_file::LightFile;
 use crate::limits::MAX_TEXT_BYTES;
 use crate::source::{FileSource, read_files};
-use crate::{IoError, LightAxes, ReadOptions, StackInput};
+use crate::{IoError, LightAxes, Notice, ReadOptions, StackInput};
 use normalight_core::Light;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -69,10 +70,17 @@ fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoErr
         }
     }
     options.limits.check_files(&display(folder), paths.len())?;
+    let below = one_in_each(folder).map_err(|reason| read_error(folder, reason))?;
+    let is_below = below.is_some();
+    paths = below.unwrap_or(paths);
     // The system hands names out in any order.
     paths.sort();
     let files = DiskFiles::of_folder(folder.to_owned(), paths, options.limits);
-    read_files(Some(&display(folder)), Box::new(files), options)
+    let mut input = read_files(Some(&display(folder)), Box::new(files), options)?;
+    if is_below {
+        input.plan.notices.insert(0, Notice::OneInEachFolder);
+    }
+    Ok(input)
 }
 
 /// Reads a light file, see [`read_lights`](crate::read_lights); `light_directions.txt` is completed

@@ -42,6 +42,12 @@ impl fmt::Display for Notice {
                 f,
                 "{archive}: an archive, read without unpacking it to the disk; photographs from its folder {folder}"
             ),
+            Self::OneInEachFolder => f.write_str(
+                "the photographs lie one in each of the folders here, and are taken as one stack",
+            ),
+            Self::PagesAsPhotographs { file, pages } => {
+                write!(f, "{file}: its {pages} pages are the photographs")
+            }
             Self::ListByStem { list } => write!(
                 f,
                 "{list}: names files with other extensions; matched without them"

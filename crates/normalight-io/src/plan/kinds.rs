@@ -83,6 +83,63 @@ const REJECTS: &[&str] = &[
     "remove", "trash", "discard", "failed",
 ];
 
+/// Words at the end of a name that say which of several copies of a shot it is.
+const VARIANTS: &[&str] = &[
+    "8bit",
+    "8bits",
+    "8b",
+    "16bit",
+    "16bits",
+    "16b",
+    "32bit",
+    "32f",
+    "bit",
+    "bits",
+    "lin",
+    "linear",
+    "srgb",
+    "gamma",
+    "small",
+    "large",
+    "thumb",
+    "thumbnail",
+    "web",
+    "lowres",
+    "highres",
+    "orig",
+    "original",
+    "edited",
+    "copy",
+    "raw",
+    "png",
+    "jpg",
+    "jpeg",
+    "tif",
+    "tiff",
+];
+
+/// A folded stem without the word at its end that says which of several copies it is, and a number before that word:
+/// `a_16_bit` is `a`.
+pub(super) fn without_variant(stem: &str) -> &str {
+    let parted = |name: &'_ str| name.rfind(['_', '-', ' ', '.']).map(|at| (at, at + 1));
+    let Some((end, start)) = parted(stem) else {
+        return stem;
+    };
+    let word = &stem[start..];
+    if !VARIANTS.contains(&word) {
+        return stem;
+    }
+    let rest = &stem[..end];
+    match parted(rest) {
+        Some((end, start))
+            if word.starts_with("bit") && ["8", "16", "32"].contains(&&rest[start..]) =>
+        {
+            &rest[..end]
+        }
+        _ => rest,
+    }
+}
+
 /// The words that tell the files of one place apart.
 pub(super) struct Words {
     /// Words that most names have: they say nothing.

@@ -164,6 +164,53 @@ fn repeated_names_keep_their_folders_and_copies_are_refused() {
         error.to_string().contains("IMG_1.png and IMG_1.tif"),
         "{error}"
     );
+    // Copies may be told apart by a word at the end of their names.
+    for [one, other] in [["8bit", "16bit"], ["8_bit", "16_bit"], ["lin", "srgb"]] {
+        let mut files = shots(|k| format!("IMG_{k}_{one}.png"));
+        files.extend(shots(|k| format!("IMG_{k}_{other}.png")));
+        let error = read(files).unwrap_err();
+        assert!(
+            matches!(&error, IoError::Copies { shots: 5, .. }),
+            "{error}"
+        );
+    }
+    // Numbers and heights are no such words.
+    let mut files = shots(|k| format!("IMG_{k}_8.png"));
+    files.extend(shots(|k| format!("IMG_{k}_16.png")));
+    files.extend(shots(|k| format!("IMG_{k}_low.png")));
+    assert_eq!(read(files).unwrap().stack.len(), 15);
+}
+
+#[test]
+fn one_photograph_in_each_folder_is_a_stack() {
+    let place = tempfile::tempdir().unwrap();
+    for (light, file) in shots(|k| format!("L{k:02}/image.png"))
+        .into_iter()
+        .enumerate()
+    {
+        let folder = place.path().join(format!("L{:02}", light + 1));
+        write_files(
+            &folder,
+            &[("image.png", file.bytes), ("note.txt", b"lamp".to_vec())],
+        )
+        .unwrap();
+    }
+    let mask = mask_png(16, 12, |x, _| x > 3);
+    write_files(place.path(), &[("mask.png", mask)]).unwrap();
+    let read = || read_paths(&[place.path().to_owned()], &ReadOptions::default());
+    let input = read().unwrap();
+    let names: Vec<String> = (1..=5).map(|k| format!("L{k:02}/image.png")).collect();
+    assert_eq!(input.picked_names(), names);
+    assert_eq!(input.mask_source, MaskSource::File("mask.png".to_owned()));
+    assert!(input.plan.notices.contains(&Notice::OneInEachFolder));
+    // A folder with more is a place of its own.
+    let more = [("second.png", shaded_png(16, 12, 7))];
+    write_files(&place.path().join("L03"), &more).unwrap();
+    let error = read().unwrap_err();
+    assert!(
+        matches!(&error, IoError::PhotographsBelow { .. }),
+        "{error}"
+    );
 }
 
 #[test]

@@ -74,6 +74,37 @@ fn lists_of_numbers() {
     );
 }
 
+#[test]
+fn numbered_lights_of_which_some_photographs_are_missing() {
+    let x = |light: usize| 0.1 * light as f32;
+    let rows = |first: usize| (0..6).map(move |k| (first + k, x(k)));
+    let lines = |first: usize| -> String {
+        let lines = rows(first).map(|(number, x)| format!("{number} {x} 0 1\n"));
+        lines.collect()
+    };
+    let table = |first: usize| -> String {
+        let lines = rows(first).map(|(number, x)| format!("{number},{x},0,1\n"));
+        format!("index,x,y,z\n{}", lines.collect::<String>())
+    };
+    for first in [0, 1] {
+        let kept = [1, 2, 4].map(|light| format!("IMG_{:04}.png", first + light));
+        for (name, text) in [("lights.txt", lines(first)), ("lights.csv", table(first))] {
+            let lights = read_lights(name, text.as_bytes(), &kept).unwrap();
+            for (light, place) in lights.iter().zip([1, 2, 4]) {
+                let found = light.direction.x / light.direction.z;
+                assert!((found - x(place)).abs() < 1e-6, "{name} {first}: {found}");
+            }
+            // Numbers that are none of theirs are no match.
+            let others = ["IMG_0100.png", "IMG_0101.png"].map(str::to_owned);
+            let error = read_lights(name, text.as_bytes(), &others).unwrap_err();
+            assert!(
+                matches!(error, IoError::LightCount { found: 6, .. }),
+                "{error}"
+            );
+        }
+    }
+}
+
 /// Two names that no file of these tests holds.
 fn ab() -> [String; 2] {
     ["P.png", "Q.png"].map(str::to_owned)

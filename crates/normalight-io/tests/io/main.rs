@@ -24,6 +24,7 @@ mod mesh_mutations;
 mod meshes;
 mod mutations;
 mod outputs;
+mod pages;
 mod published_read;
 mod published_splits;
 mod published_write;

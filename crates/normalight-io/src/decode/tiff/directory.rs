@@ -19,14 +19,22 @@ pub(crate) struct File<'a> {
 /// A directory, and where the next begins (0: nowhere).
 pub(crate) struct Directory<'a> {
     pub(crate) file: File<'a>,
-    entries: Vec<Entry<'a>>,
+    pub(super) entries: Vec<Entry<'a>>,
     pub(crate) next: u64,
 }
 
-struct Entry<'a> {
-    tag: u16,
-    kind: u16,
-    content: &'a [u8],
+/// A tag and its values as they lie in the file.
+pub(crate) struct Entry<'a> {
+    pub(super) tag: u16,
+    pub(super) kind: u16,
+    pub(super) content: &'a [u8],
+}
+
+impl Entry<'_> {
+    /// Number of values.
+    pub(super) fn count(&self) -> usize {
+        self.content.len() / width(self.kind).unwrap_or(1)
+    }
 }
 
 /// Bytes of a value of a kind.

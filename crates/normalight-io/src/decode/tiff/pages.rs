@@ -7,7 +7,7 @@ use crate::format::unread::RAW_ADVICE;
 use std::collections::HashSet;
 
 /// Most pages that are counted, and most directories below one that are looked at.
-const MAX_PAGES: usize = 10_000;
+pub(super) const MAX_PAGES: usize = 10_000;
 const MAX_BELOW: usize = 16;
 
 /// The page that is taken.
@@ -54,7 +54,7 @@ pub(super) fn find<'a>(source: &Source, file: &File<'a>) -> Result<Pages<'a>, Io
 }
 
 /// Whether a page is a preview or a mask of another.
-fn is_beside(page: &Directory) -> bool {
+pub(super) fn is_beside(page: &Directory) -> bool {
     page.one(tags::SUBFILE).unwrap_or(0) & 0b101 != 0 || page.one(tags::OLD_SUBFILE) == Some(2)
 }
 
@@ -73,7 +73,7 @@ fn is_mosaic(page: &Directory) -> bool {
 }
 
 /// Pictures behind one directory, as ImageJ stores large stacks: its description counts them.
-fn slices(page: &Directory) -> Option<usize> {
+pub(super) fn slices(page: &Directory) -> Option<usize> {
     let text = page.bytes(tags::DESCRIPTION)?;
     let text = std::str::from_utf8(&text[..text.len().min(4096)]).ok()?;
     let is_imagej = text.starts_with("ImageJ=") && page.next == 0;
