@@ -3,7 +3,7 @@
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use normalight_fuzz::{Png, check_lights, check_mask};
-use normalight_io::{ColorMode, LightAxes, MaskChoice, NamedBytes, ReadOptions, read_stack};
+use normalight_io::{AmbientChoice, ColorMode, LightAxes, MaskChoice, NamedBytes, ReadOptions, read_stack};
 
 #[derive(Debug, Arbitrary)]
 struct Folder {
@@ -13,6 +13,8 @@ struct Folder {
     other: Vec<(String, Vec<u8>)>,
     color: u8,
     whole_frame: bool,
+    ambient: bool,
+    align: bool,
     images: Option<u8>,
     lights: Vec<u8>,
 }
@@ -44,6 +46,12 @@ fuzz_target!(|folder: Folder| {
             MaskChoice::Auto
         },
         images: folder.images.map(usize::from),
+        ambient: match folder.ambient {
+            true => AmbientChoice::Auto,
+            false => AmbientChoice::LeaveOut,
+        },
+        align: folder.align,
+        ..ReadOptions::default()
     };
     let Ok(input) = read_stack(files, &options) else {
         return;

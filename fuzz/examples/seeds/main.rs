@@ -1,11 +1,16 @@
 //! Writes seeds for the targets that take bytes as they are, into the folder given: `seeds FOLDER`.
 //! Targets with structured inputs need none: every sequence of bytes is a file to them.
-#[path = "../../../crates/normalight-io/tests/common/meshes.rs"]
+#[path = "../../../crates/normalight-io/tests/io/common/archives.rs"]
+#[allow(dead_code, clippy::unwrap_used)]
+mod archives;
+#[path = "../../../crates/normalight-io/tests/io/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 mod pictures;
 
+use archives::all_ways;
 use meshes::{CUBE_OBJ, PlyKind, cube_binary, cube_json, cube_ply};
+use normalight_io::NamedBytes;
 use normalight_synth::{Preset, Renderer};
 use std::path::Path;
 use std::{env, fs, io};
@@ -97,6 +102,14 @@ fn others() -> Vec<Seed> {
         seeds.push(("glb", format!("cube-{place}"), content));
     }
     seeds.push(("mat", "array".into(), matlab_array()));
+    let files = ["v/1.png", "v/2.png", "v/3.png", "mask.png"].map(|name| NamedBytes {
+        name: name.to_owned(),
+        bytes: name.repeat(9).into_bytes(),
+    });
+    for (place, (name, bytes)) in all_ways(&files).into_iter().enumerate() {
+        let kind = if name.ends_with("zip") { 0 } else { 1 + u8::from(name.ends_with("gz")) };
+        seeds.push(("archive", place.to_string(), [&[kind][..], &bytes].concat()));
+    }
     let renderer = Renderer::new(Preset::World.recipe()).expect("the preset is sound");
     let scene = renderer
         .whole_scene(1, 3, 8)

@@ -124,6 +124,8 @@ fn stacks_of_imagej_have_one_directory() {
     pixels.iter().for_each(|page| bytes.extend(page));
     let input = read(vec![file("stack.tif", bytes)]);
     assert!(said(&input));
+    let again = |notice: &&Notice| matches!(notice, Notice::SeveralPages { .. });
+    assert_eq!(input.plan.notices.iter().find(again), None);
     for (image, page) in input.stack.images().iter().zip(pixels) {
         assert_eq!(image.samples, Samples::U8(page));
     }

@@ -6,8 +6,9 @@ use super::tags;
 use normalight_core::MIN_IMAGES;
 use std::collections::HashSet;
 
-/// Entries that point elsewhere in the file, or say that a page is one of several.
-const LEFT_OUT: [u16; 8] = [
+/// Entries that point elsewhere in the file, or say that a page is one of several (descriptions do).
+const LEFT_OUT: [u16; 9] = [
+    tags::DESCRIPTION,
     tags::SUBFILE,
     tags::OLD_SUBFILE,
     tags::EXIF,
