@@ -1,6 +1,13 @@
-use crate::{CellChoice, LightGenotype, ModelError, NormalGenotype, NormalInput};
+use crate::{
+    CellChoice, LightGenotype, ModelError, NormalGenotype, NormalInput, NormalNetwork, StagedLight,
+    StagedNormal,
+};
 use normalight_core::LightBins;
 use serde::{Deserialize, Serialize};
+
+/// Pixels that a tile of a larger picture sees beyond the part that is kept: more than the about 30 pixels that plain
+/// networks and cells see, so that tiles leave no seam.
+const OVERLAP: usize = 32;
 
 /// Everything that decides the shape of one network; stored in its weights file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,6 +39,8 @@ pub enum LightBody {
     Plain(PlainLight),
     /// The paper's backbone with searched cells.
     Cells(CellLight),
+    /// Stages, of the search of whole networks.
+    Staged(StagedLight),
 }
 
 /// Five 3x3 convolutions (three of stride 2) per image, max over images, three more (two of stride
@@ -82,6 +91,8 @@ pub enum NormalBody {
     Plain(PlainNormal),
     /// The paper's backbone with searched cells.
     Cells(CellNormal),
+    /// Stages, of the search of whole networks.
+    Staged(StagedNormal),
 }
 
 /// Seven 3x3 convolutions per image down to a quarter and up to half the size, max over images,
@@ -164,6 +175,28 @@ impl CellNormal {
     }
 }
 
+impl LightBody {
+    /// Whether it has normalisation layers, which weights files do not hold: they are folded away.
+    pub fn is_normalised(&self) -> bool {
+        match self {
+            Self::Plain(_) => false,
+            Self::Cells(_) => true,
+            Self::Staged(staged) => staged.is_normalised(),
+        }
+    }
+}
+
+impl NormalBody {
+    /// Whether it has normalisation layers, which weights files do not hold: they are folded away.
+    pub fn is_normalised(&self) -> bool {
+        match self {
+            Self::Plain(_) => false,
+            Self::Cells(_) => true,
+            Self::Staged(staged) => staged.is_normalised(),
+        }
+    }
+}
+
 impl LightArchitecture {
     /// The plain baseline: 262,316 parameters, views of 64x64.
     pub fn plain() -> Self {
@@ -208,6 +241,7 @@ impl LightArchitecture {
                 }
                 within("hidden", plain.hidden, 1, 4096)
             }
+            LightBody::Staged(staged) => staged.validate(self.input_size),
             LightBody::Cells(cells) => {
                 within("width", cells.width, 1, 256)?;
                 within("hidden", cells.hidden, 1, 4096)?;
@@ -233,6 +267,17 @@ impl NormalArchitecture {
         }
     }
 
+    /// How many pixels of a larger picture a tile of it needs around itself: what its network sees.
+    pub(crate) fn overlap(&self) -> usize {
+        match &self.body {
+            NormalBody::Plain(_) | NormalBody::Cells(_) => OVERLAP,
+            NormalBody::Staged(staged) => staged
+                .reach()
+                .next_multiple_of(NormalNetwork::ALIGNMENT)
+                .max(OVERLAP),
+        }
+    }
+
     /// Number of input channels: image, light direction, perhaps the mask.
     pub fn input_channels(&self) -> usize {
         NormalInput::channels(self.mask_channel)
@@ -253,6 +298,7 @@ impl NormalArchitecture {
                 within("pixel_branch", plain.pixel_branch, 0, 1024)?;
                 within("head", plain.head, 1, 1024)
             }
+            NormalBody::Staged(staged) => staged.validate(),
             NormalBody::Cells(cells) => {
                 within("width", cells.width, 1, 256)?;
                 within("fused_convolutions", cells.fused_convolutions, 1, 2)?;
@@ -270,7 +316,7 @@ impl NormalArchitecture {
     }
 }
 
-fn within(what: &str, found: usize, low: usize, high: usize) -> Result<(), ModelError> {
+pub(crate) fn within(what: &str, found: usize, low: usize, high: usize) -> Result<(), ModelError> {
     if (low..=high).contains(&found) {
         return Ok(());
     }

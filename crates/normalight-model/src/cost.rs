@@ -2,6 +2,7 @@
 
 mod cells;
 mod layers;
+mod stages;
 
 pub use cells::operation_cost;
 pub use layers::Cost;
@@ -51,6 +52,14 @@ pub fn light_cost(architecture: &LightArchitecture) -> NetworkCost {
                 + conv(c, c, area / 1024)
                 + dense(c * side * side, plain.hidden)
                 + dense(plain.hidden, classes)
+        }
+        LightBody::Staged(staged) => {
+            let (features, channels, small) =
+                stages::row(&staged.features, (4, area), [1; 2], true);
+            let before = (2 * channels, small);
+            let (classifier, _, _) = stages::row(&staged.classifier, before, [0, 1], false);
+            let (_, flat) = staged.last(architecture.input_size);
+            features + classifier + dense(flat, staged.hidden) + dense(staged.hidden, classes)
         }
         LightBody::Cells(cells) => {
             let c = cells.width;
@@ -107,6 +116,7 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
                 (features + layers, fused + conv(joined, head, area))
             }
         }
+        NormalBody::Staged(staged) => stages::normal(staged, inputs, area),
         NormalBody::Cells(cells) => {
             let c = cells.width;
             let chosen = cells.genotype.chosen().map(NormalGenotype::cells);

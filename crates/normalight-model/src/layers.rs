@@ -73,7 +73,12 @@ pub(crate) fn convolve_row(convolutions: &[Conv2d], input: Tensor<4>) -> Tensor<
         .fold(input, |input, conv| convolve_leaky(conv, input))
 }
 
-fn convolve_as(conv: &Conv2d, input: Tensor<4>, upsampling: usize, slope: f32) -> Tensor<4> {
+pub(crate) fn convolve_as(
+    conv: &Conv2d,
+    input: Tensor<4>,
+    upsampling: usize,
+    slope: f32,
+) -> Tensor<4> {
     let how = Convolution {
         stride: conv.stride[0],
         upsampling,
@@ -196,18 +201,29 @@ impl NormedConv {
     /// - input: `[batch, height, width, channels_in]`
     /// - output: `[batch, height / stride, width / stride, channels_out]`
     pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
-        self.forward_as(input, 0, None)
+        self.forward_as(input, (1, 0), None)
+    }
+
+    /// [`Self::forward`] on the input enlarged by 1 or 2.
+    pub(crate) fn forward_enlarged(&self, input: Tensor<4>, upsampling: usize) -> Tensor<4> {
+        self.forward_as(input, (upsampling, 0), None)
     }
 
     /// [`Self::forward`] times a number, `[1]`, which normalisation takes in as its scale.
     pub(crate) fn forward_weighted(&self, input: Tensor<4>, weight: &Tensor<1>) -> Tensor<4> {
-        self.forward_as(input, 0, Some(weight))
+        self.forward_as(input, (1, 0), Some(weight))
     }
 
-    /// [`Self::forward_weighted`] on the input moved left and up by `shift` pixels.
-    fn forward_as(&self, input: Tensor<4>, shift: usize, weight: Option<&Tensor<1>>) -> Tensor<4> {
+    /// [`Self::forward_weighted`] on the input enlarged and then moved left and up by `shift` pixels.
+    fn forward_as(
+        &self,
+        input: Tensor<4>,
+        (upsampling, shift): (usize, usize),
+        weight: Option<&Tensor<1>>,
+    ) -> Tensor<4> {
         let how = Convolution {
             stride: self.conv.stride[0],
+            upsampling,
             shift,
             ..Convolution::default()
         };
@@ -270,8 +286,8 @@ impl FactorizedReduce {
         let input = activation::relu(input);
         // Batch normalisation works per channel, so normalising the halves is the same as
         // normalising both together.
-        let even = self.even.forward_as(input.clone(), 0, weight);
-        Tensor::cat(vec![even, self.odd.forward_as(input, 1, weight)], 3)
+        let even = self.even.forward_as(input.clone(), (1, 0), weight);
+        Tensor::cat(vec![even, self.odd.forward_as(input, (1, 1), weight)], 3)
     }
 
     pub(crate) fn folded(&self) -> Self {

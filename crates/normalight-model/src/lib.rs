@@ -61,6 +61,8 @@ mod observer;
 mod operation;
 mod relaxation;
 mod search_space;
+mod stage_layers;
+mod staged;
 mod weights;
 
 pub use architecture::{
@@ -86,4 +88,5 @@ pub use observer::{NoopObserver, Observer, PipelineStage, Progress, StageTimes};
 pub use operation::OperationLayer;
 pub use relaxation::{CellWeights, Relaxation};
 pub use search_space::SearchSpace;
+pub use staged::{LayerKind, Meeting, PixelStage, Stage, StagedLight, StagedNormal};
 pub use weights::Weights;

@@ -1,8 +1,9 @@
 use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
 use crate::layers::{Form, convolution, convolve_row, leaky};
+use crate::stage_layers::{Resize, StageLayers};
 use crate::{
     CellLight, LightArchitecture, LightBody, LightGenotype, ModelError, PlainLight, Relaxation,
-    SearchSpace,
+    SearchSpace, Stage, StagedLight,
 };
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
@@ -29,6 +30,7 @@ pub struct LightNetwork {
 enum Features {
     Plain(PlainFeatures),
     Cells(CellFeatures),
+    Staged(Vec<StageLayers>),
 }
 
 #[derive(Module, Debug)]
@@ -46,6 +48,7 @@ struct CellFeatures {
 enum Classifier {
     Plain(PlainFeatures),
     Cells(CellClassifier),
+    Staged(Vec<StageLayers>),
 }
 
 #[derive(Module, Debug)]
@@ -73,11 +76,14 @@ impl LightNetwork {
         device: &Device,
     ) -> Result<Self, ModelError> {
         architecture.validate()?;
+        let form = if folded { Form::Folded } else { Form::Affine };
         let layers = match &architecture.body {
+            LightBody::Staged(staged) => {
+                staged_layers(staged, architecture.input_size, form, device)
+            }
             LightBody::Plain(plain) => plain_layers(plain, architecture.input_size, device),
             LightBody::Cells(cells) => {
                 let plans = cells.genotype.required()?.cells().map(CellPlan::Chosen);
-                let form = if folded { Form::Folded } else { Form::Affine };
                 cell_layers(cells, plans, architecture.input_size, form, device)
             }
         };
@@ -153,6 +159,7 @@ impl LightNetwork {
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
             Features::Plain(plain) => plain.forward(input),
+            Features::Staged(stages) => run(stages, input),
             Features::Cells(cells) => self.row(&cells.cells, convolve_row(&cells.stem, input)),
         }
     }
@@ -167,6 +174,7 @@ impl LightNetwork {
         let both = Tensor::cat(vec![own, fused], 3);
         let last = match &self.classifier {
             Classifier::Plain(plain) => plain.forward(both),
+            Classifier::Staged(stages) => run(stages, both),
             Classifier::Cells(cells) => {
                 let row = self.row(&cells.cells, convolve_row(&cells.before, both));
                 convolve_row(&cells.after, row)
@@ -182,14 +190,54 @@ impl LightNetwork {
     pub fn folded(&self) -> Self {
         let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
         let mut network = self.clone();
-        if let Features::Cells(features) = &mut network.features {
-            features.cells = fold(&features.cells);
+        let fold_stages = |stages: &[StageLayers]| stages.iter().map(StageLayers::folded).collect();
+        match &mut network.features {
+            Features::Plain(_) => {}
+            Features::Cells(features) => features.cells = fold(&features.cells),
+            Features::Staged(stages) => *stages = fold_stages(stages),
         }
-        if let Classifier::Cells(classifier) = &mut network.classifier {
-            classifier.cells = fold(&classifier.cells);
+        match &mut network.classifier {
+            Classifier::Plain(_) => {}
+            Classifier::Cells(classifier) => classifier.cells = fold(&classifier.cells),
+            Classifier::Staged(stages) => *stages = fold_stages(stages),
         }
         network
     }
+}
+
+fn run(stages: &[StageLayers], input: Tensor<4>) -> Tensor<4> {
+    stages
+        .iter()
+        .fold(input, |input, stage| stage.forward(input))
+}
+
+fn staged_layers(
+    staged: &StagedLight,
+    input_size: usize,
+    form: Form,
+    device: &Device,
+) -> (Features, Classifier, usize, usize) {
+    let row = |mut width: usize, stages: &[Stage], first: (Resize, bool)| {
+        let layers = stages.iter().enumerate().map(|(place, stage)| {
+            let how = if place == 0 {
+                first
+            } else {
+                (Resize::Halve, false)
+            };
+            let from = std::mem::replace(&mut width, stage.width);
+            StageLayers::new(from, stage, how, form, device)
+        });
+        layers.collect::<Vec<_>>()
+    };
+    let features = row(INPUT_CHANNELS, &staged.features, (Resize::Halve, true));
+    let both = 2 * staged.features.last().map_or(0, |stage| stage.width);
+    let classifier = row(both, &staged.classifier, (Resize::Keep, false));
+    (
+        Features::Staged(features),
+        Classifier::Staged(classifier),
+        staged.last(input_size).1,
+        staged.hidden,
+    )
 }
 
 fn plain_layers(

@@ -1,5 +1,6 @@
 mod fused;
 mod plain;
+mod staged;
 
 pub use fused::FusedFeatures;
 
@@ -16,6 +17,7 @@ use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
 use burn::tensor::{Device, Tensor};
 use normalight_kernels::{max_over_images, transposed_convolution};
 use plain::PlainBody;
+use staged::StagedBody;
 
 /// The normal estimation network: per-image features, their maximum over all images, and a regressor of unit normals.
 #[derive(Module, Debug)]
@@ -29,6 +31,7 @@ pub struct NormalNetwork {
 enum Body {
     Plain(PlainBody),
     Cells(CellBody),
+    Staged(StagedBody),
 }
 
 #[derive(Module, Debug)]
@@ -97,11 +100,14 @@ impl NormalNetwork {
     ) -> Result<Self, ModelError> {
         architecture.validate()?;
         let channels = architecture.input_channels();
+        let form = if folded { Form::Folded } else { Form::Affine };
         let body = match &architecture.body {
             NormalBody::Plain(plain) => Body::Plain(PlainBody::new(plain, channels, device)),
+            NormalBody::Staged(staged) => {
+                Body::Staged(StagedBody::new(staged, channels, form, device))
+            }
             NormalBody::Cells(cells) => {
                 let plans = cells.genotype.required()?.cells().map(CellPlan::Chosen);
-                let form = if folded { Form::Folded } else { Form::Affine };
                 Body::Cells(CellBody::new(cells, plans, channels, form, device))
             }
         };
@@ -151,6 +157,14 @@ impl NormalNetwork {
         forward_row(cells, stem, mixture.as_ref())
     }
 
+    /// How often the features of all images are computed before normals can be: more than once where images exchange.
+    pub fn passes(&self) -> usize {
+        match &self.body {
+            Body::Staged(staged) => staged.passes(),
+            Body::Plain(_) | Body::Cells(_) => 1,
+        }
+    }
+
     /// What the network keeps of the images of `stacks` stacks, which lie one after the other with as many images each.
     ///
     /// # Shapes
@@ -160,8 +174,30 @@ impl NormalNetwork {
     /// # Panics
     /// If the number of images is not a multiple of `stacks`.
     pub fn fuse(&self, input: Tensor<4>, stacks: usize) -> FusedFeatures {
+        let mut kept: Vec<FusedFeatures> = Vec::new();
+        for _ in 1..self.passes() {
+            kept.push(self.fuse_after(input.clone(), stacks, &kept));
+        }
+        self.fuse_after(input, stacks, &kept)
+    }
+
+    /// The same in one of [`NormalNetwork::passes`], after what earlier passes kept of all images of the stacks: in the first
+    /// of nothing.
+    ///
+    /// # Shapes
+    /// Those of [`NormalNetwork::fuse`].
+    ///
+    /// # Panics
+    /// As [`NormalNetwork::fuse`].
+    pub fn fuse_after(
+        &self,
+        input: Tensor<4>,
+        stacks: usize,
+        before: &[FusedFeatures],
+    ) -> FusedFeatures {
         match &self.body {
             Body::Plain(plain) => plain.fuse(input, stacks),
+            Body::Staged(staged) => staged.fuse(input, stacks, before),
             Body::Cells(cells) => {
                 let images = input.dims()[0] / stacks;
                 let row = self.row(&cells.features, convolve_row(&cells.stem, input));
@@ -173,6 +209,7 @@ impl NormalNetwork {
                 };
                 FusedFeatures {
                     features: max_over_images(features, stacks),
+                    sum: None,
                     pixels: None,
                     images,
                 }
@@ -187,6 +224,7 @@ impl NormalNetwork {
     pub fn regress(&self, fused: FusedFeatures) -> Tensor<4> {
         let raw = match &self.body {
             Body::Plain(plain) => plain.regress(fused),
+            Body::Staged(staged) => staged.regress(fused),
             Body::Cells(cells) => {
                 let row = self.row(&cells.regressor, convolve_row(&cells.fused, fused.features));
                 convolve(&cells.output, cells.regressor_up.forward(row))
@@ -198,10 +236,14 @@ impl NormalNetwork {
     /// The same function with every normalisation layer folded into its convolution.
     pub fn folded(&self) -> Self {
         let mut network = self.clone();
-        if let Body::Cells(cells) = &mut network.body {
-            let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
-            cells.features = fold(&cells.features);
-            cells.regressor = fold(&cells.regressor);
+        match &mut network.body {
+            Body::Plain(_) => {}
+            Body::Staged(staged) => *staged = staged.folded(),
+            Body::Cells(cells) => {
+                let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
+                cells.features = fold(&cells.features);
+                cells.regressor = fold(&cells.regressor);
+            }
         }
         network
     }

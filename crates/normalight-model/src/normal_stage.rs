@@ -1,6 +1,8 @@
 use crate::light_stage::read_back;
 use crate::observer::{Observer, PipelineStage, report};
-use crate::{FusedFeatures, LoadedNormalNetwork, ModelError, NormalInput, NormalNetwork};
+use crate::{
+    FusedFeatures, LoadedNormalNetwork, ModelError, NormalArchitecture, NormalInput, NormalNetwork,
+};
 use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{CalibratedStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
 
@@ -13,10 +15,6 @@ const GROUP: usize = 24;
 
 /// Side of the part of a tile that is kept; objects up to this size need one tile.
 const TILE: usize = 256;
-
-/// Pixels that a tile sees beyond the part that is kept: more than the networks' receptive field
-/// of about 30 pixels, so that tiles leave no seam.
-const OVERLAP: usize = 32;
 
 impl LoadedNormalNetwork {
     /// Estimates the normals of a stack under known lights, tile by tile, as [`NormalInput`] encodes it.
@@ -39,24 +37,30 @@ impl LoadedNormalNetwork {
         let mut normals = vec![Vec3::ZERO; width * height];
         let tiles = tiles(mask);
         let groups = groups(stack.len());
-        let steps = (tiles.len() * views.len() * stack.len()) as f32;
+        let passes = self.network.passes();
+        let steps = (tiles.len() * views.len() * stack.len() * passes) as f32;
         let mut done = 0;
         for &kept in &tiles {
-            let tile = Tile::new(calibrated, kept, self.architecture.mask_channel);
+            let tile = Tile::new(calibrated, kept, &self.architecture);
             for &symmetry in views {
                 let view = TileView::new(&tile, symmetry);
                 for group in &groups {
-                    let mut fused: Option<FusedFeatures> = None;
-                    for images in group.chunks(BATCH) {
-                        report(observer, stage, done as f32 / steps).await?;
-                        done += images.len();
-                        let more = self.network.fuse(view.batch(images, &self.device), 1);
-                        fused = Some(match fused {
-                            Some(before) => before.and(more),
-                            None => more,
-                        });
+                    let mut kept: Vec<FusedFeatures> = Vec::new();
+                    for _ in 0..passes {
+                        let mut fused: Option<FusedFeatures> = None;
+                        for images in group.chunks(BATCH) {
+                            report(observer, stage, done as f32 / steps).await?;
+                            done += images.len();
+                            let input = view.batch(images, &self.device);
+                            let more = self.network.fuse_after(input, 1, &kept);
+                            fused = Some(match fused {
+                                Some(before) => before.and(more),
+                                None => more,
+                            });
+                        }
+                        kept.extend(fused);
                     }
-                    if let Some(fused) = fused {
+                    if let Some(fused) = kept.pop() {
                         let values = read_back(self.network.regress(fused)).await?;
                         view.add(&values, &mut normals);
                     }
@@ -132,9 +136,9 @@ struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
-    fn new(calibrated: CalibratedStack<'a>, kept: Rect, mask_channel: bool) -> Self {
+    fn new(calibrated: CalibratedStack<'a>, kept: Rect, architecture: &NormalArchitecture) -> Self {
         let (stack, mask) = (calibrated.stack(), calibrated.mask());
-        let rect = kept.grown(OVERLAP, stack.width(), stack.height());
+        let rect = kept.grown(architecture.overlap(), stack.width(), stack.height());
         let inside = (0..rect.area()).map(|index| {
             let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
             mask.inside()[y * mask.width() + x]
@@ -144,7 +148,12 @@ impl<'a> Tile<'a> {
             calibrated,
             kept,
             rect,
-            input: NormalInput::new(mask_channel, inside.collect(), calibrated.lights(), read),
+            input: NormalInput::new(
+                architecture.mask_channel,
+                inside.collect(),
+                calibrated.lights(),
+                read,
+            ),
         }
     }
 }

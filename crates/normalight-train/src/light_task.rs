@@ -6,7 +6,7 @@ use burn::tensor::{Device, Tensor, TensorData, activation};
 use normalight_core::{Light, LightBins, intensity_error, mean_light_error};
 use normalight_kernels::max_over_images;
 use normalight_model::{
-    LightBody, LightInput, LightNetwork, LightOptions, LoadedNetwork, NoopObserver, Weights,
+    LightInput, LightNetwork, LightOptions, LoadedNetwork, NoopObserver, Weights,
 };
 use normalight_run::{Validation, collect, fill};
 use normalight_synth::{Framing, Sample};
@@ -62,7 +62,7 @@ impl Task for LightTask {
         device: &Device,
     ) -> Result<LightNetwork, TrainError> {
         let stored = weights.light_network(device)?;
-        let plain = matches!(stored.architecture.body, LightBody::Plain(_));
+        let plain = !stored.architecture.body.is_normalised();
         let same = stored.architecture == self.settings.architecture;
         check_start(weights, plain, same)?;
         let filled = fill(network, &mut collect(&stored.network));

@@ -8,8 +8,8 @@ use burn::tensor::{Device, Tensor, TensorData};
 use normalight_core::{CalibratedStack, Light, normal_error};
 use normalight_kernels::channels_first;
 use normalight_model::{
-    AuxiliaryTower, LoadedNetwork, LoadedNormalNetwork, NoopObserver, NormalBody, NormalInput,
-    NormalNetwork, PipelineStage, Quality, Weights,
+    AuxiliaryTower, LoadedNetwork, LoadedNormalNetwork, NoopObserver, NormalInput, NormalNetwork,
+    PipelineStage, Quality, Weights,
 };
 use normalight_run::{Validation, collect, fill};
 use normalight_synth::{Framing, Sample};
@@ -87,7 +87,7 @@ impl Task for NormalTask {
         device: &Device,
     ) -> Result<NormalTraining, TrainError> {
         let stored = weights.normal_network(device)?;
-        let plain = matches!(stored.architecture.body, NormalBody::Plain(_));
+        let plain = !stored.architecture.body.is_normalised();
         let same = stored.architecture == self.settings.architecture;
         check_start(weights, plain, same)?;
         let NormalTraining { network, auxiliary } = training;

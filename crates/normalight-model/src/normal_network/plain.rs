@@ -69,19 +69,12 @@ impl PlainBody {
 
     pub(super) fn fuse(&self, input: Tensor<4>, stacks: usize) -> FusedFeatures {
         let images = input.dims()[0] / stacks;
-        let pixels = self.pixels.as_ref().map(|branch| {
-            let pixels = convolve_row(&branch.layers, input.clone());
-            let [rows, height, width, channels] = pixels.dims();
-            let each = [stacks, rows / stacks, height * width * channels];
-            FusedPixels {
-                most: max_over_images(pixels.clone(), stacks),
-                sum: pixels
-                    .reshape(each)
-                    .sum_dim(1)
-                    .reshape([stacks, height, width, channels]),
-            }
-        });
+        let pixels = self
+            .pixels
+            .as_ref()
+            .map(|branch| FusedPixels::of(convolve_row(&branch.layers, input.clone()), stacks));
         FusedFeatures {
+            sum: None,
             features: max_over_images(self.features(input), stacks),
             pixels,
             images,
@@ -95,8 +88,7 @@ impl PlainBody {
         let (Some(branch), Some(pixels)) = (&self.pixels, fused.pixels) else {
             return convolve(&self.output, head);
         };
-        let mean = pixels.sum * (1.0 / fused.images as f32);
-        let beside = |map: Tensor<4>| Tensor::cat(vec![map, pixels.most.clone(), mean.clone()], 3);
+        let beside = pixels.beside(fused.images);
         let joined = convolve_leaky(&branch.join, beside(head));
         convolve(&self.output, beside(joined))
     }

@@ -67,16 +67,19 @@ impl NetworkRecipe {
         cost.multiply_adds(images)
     }
 
-    /// Base width: channels of the first layer of a plain network, of the nodes of the first cells.
+    /// Base width: channels of the first layer of a plain network or one of stages, of the nodes of the
+    /// first cells.
     pub fn width(&self) -> usize {
         match self {
             Self::Light(settings) => match &settings.architecture.body {
                 LightBody::Plain(plain) => plain.widths[0],
                 LightBody::Cells(cells) => cells.width,
+                LightBody::Staged(staged) => staged.features[0].width,
             },
             Self::Normal(settings) => match &settings.architecture.body {
                 NormalBody::Plain(plain) => plain.widths[0],
                 NormalBody::Cells(cells) => cells.width,
+                NormalBody::Staged(staged) => staged.down[0].width,
             },
         }
     }
@@ -85,11 +88,11 @@ impl NetworkRecipe {
     pub fn cell_width_mut(&mut self) -> Option<&mut usize> {
         match self {
             Self::Light(settings) => match &mut settings.architecture.body {
-                LightBody::Plain(_) => None,
+                LightBody::Plain(_) | LightBody::Staged(_) => None,
                 LightBody::Cells(cells) => Some(&mut cells.width),
             },
             Self::Normal(settings) => match &mut settings.architecture.body {
-                NormalBody::Plain(_) => None,
+                NormalBody::Plain(_) | NormalBody::Staged(_) => None,
                 NormalBody::Cells(cells) => Some(&mut cells.width),
             },
         }
@@ -109,11 +112,11 @@ impl NetworkRecipe {
         match self {
             Self::Light(settings) => match &settings.architecture.body {
                 LightBody::Cells(cells) => light_cell_sites(cells, area).concat(),
-                LightBody::Plain(_) => Vec::new(),
+                LightBody::Plain(_) | LightBody::Staged(_) => Vec::new(),
             },
             Self::Normal(settings) => match &settings.architecture.body {
                 NormalBody::Cells(cells) => normal_cell_sites(cells, area).concat(),
-                NormalBody::Plain(_) => Vec::new(),
+                NormalBody::Plain(_) | NormalBody::Staged(_) => Vec::new(),
             },
         }
     }
@@ -159,11 +162,11 @@ impl NetworkRecipe {
         match self {
             Self::Light(settings) => match &settings.architecture.body {
                 LightBody::Cells(cells) => cells.genotype.is_open(),
-                LightBody::Plain(_) => false,
+                LightBody::Plain(_) | LightBody::Staged(_) => false,
             },
             Self::Normal(settings) => match &settings.architecture.body {
                 NormalBody::Cells(cells) => cells.genotype.is_open(),
-                NormalBody::Plain(_) => false,
+                NormalBody::Plain(_) | NormalBody::Staged(_) => false,
             },
         }
     }

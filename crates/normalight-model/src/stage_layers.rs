@@ -1,0 +1,137 @@
+//! Stages of a network, with their weights.
+use crate::layers::{Form, LEAK, NormedConv, convolution, convolve_as, depthwise, leaky};
+use crate::{LayerKind, Stage};
+use burn::module::Module;
+use burn::nn::conv::Conv2d;
+use burn::tensor::{Device, Tensor};
+use normalight_kernels::depthwise_relu;
+
+/// What the first layer of a stage does to the size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Resize {
+    Keep,
+    Halve,
+    Double,
+}
+
+/// The layers of a stage.
+#[derive(Module, Debug)]
+pub(crate) struct StageLayers {
+    layers: Vec<StageLayer>,
+    residual: bool,
+}
+
+#[derive(Module, Debug)]
+struct StageLayer {
+    depthwise: Option<Conv2d>,
+    to_width: ToWidth,
+    /// The layer's input is enlarged by this: 1 or 2.
+    upsampling: usize,
+}
+
+/// The convolution to a layer's width.
+#[derive(Module, Debug)]
+enum ToWidth {
+    Biased(Conv2d),
+    Normed(NormedConv),
+}
+
+impl StageLayers {
+    /// With random weights. `is_first`: the stage sees what comes from outside, whose signs a ReLU would take away.
+    pub(crate) fn new(
+        channels: usize,
+        stage: &Stage,
+        (resize, is_first): (Resize, bool),
+        form: Form,
+        device: &Device,
+    ) -> Self {
+        let layer = |place: usize| {
+            let from = if place == 0 { channels } else { stage.width };
+            let resize = if place == 0 { resize } else { Resize::Keep };
+            let kind = match stage.kind {
+                LayerKind::Separable3 | LayerKind::Separable5 if is_first && place == 0 => {
+                    LayerKind::Convolution3
+                }
+                kind => kind,
+            };
+            StageLayer::new(
+                [from, stage.width],
+                (kind, resize),
+                stage.normalised,
+                form,
+                device,
+            )
+        };
+        Self {
+            layers: (0..stage.layers).map(layer).collect(),
+            residual: stage.residual,
+        }
+    }
+
+    pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
+        let mut layers = self.layers.iter();
+        let first = layers
+            .next()
+            .map_or(input.clone(), |layer| layer.forward(input));
+        layers.fold(first, |input, layer| match self.residual {
+            true => input.clone() + layer.forward(input),
+            false => layer.forward(input),
+        })
+    }
+
+    pub(crate) fn folded(&self) -> Self {
+        let layers = self.layers.iter().map(|layer| StageLayer {
+            depthwise: layer.depthwise.clone(),
+            to_width: match &layer.to_width {
+                ToWidth::Normed(normed) => ToWidth::Normed(normed.folded()),
+                biased @ ToWidth::Biased(_) => biased.clone(),
+            },
+            upsampling: layer.upsampling,
+        });
+        Self {
+            layers: layers.collect(),
+            residual: self.residual,
+        }
+    }
+}
+
+impl StageLayer {
+    fn new(
+        channels: [usize; 2],
+        (kind, resize): (LayerKind, Resize),
+        normalised: bool,
+        form: Form,
+        device: &Device,
+    ) -> Self {
+        let stride = if resize == Resize::Halve { 2 } else { 1 };
+        let spatial = kind
+            .depthwise()
+            .map(|size| depthwise(channels[0], size, stride, device));
+        let size = if kind == LayerKind::Convolution3 {
+            3
+        } else {
+            1
+        };
+        // Where there is a depthwise convolution it has the stride.
+        let stride = if spatial.is_some() { 1 } else { stride };
+        Self {
+            depthwise: spatial,
+            to_width: match normalised {
+                true => ToWidth::Normed(NormedConv::new(channels, size, stride, form, device)),
+                false => ToWidth::Biased(convolution(channels, size, stride, device)),
+            },
+            upsampling: if resize == Resize::Double { 2 } else { 1 },
+        }
+    }
+
+    fn forward(&self, input: Tensor<4>) -> Tensor<4> {
+        let input = match &self.depthwise {
+            Some(conv) => depthwise_relu(input, conv.weight.val(), conv.stride[0]),
+            None => input,
+        };
+        match &self.to_width {
+            ToWidth::Biased(conv) => convolve_as(conv, input, self.upsampling, LEAK),
+            ToWidth::Normed(normed) => leaky(normed.forward_enlarged(input, self.upsampling)),
+        }
+    }
+}
