@@ -1,5 +1,7 @@
 //! `normalight search`.
 mod compare;
+mod networks;
+mod watch;
 
 use crate::args::{DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
 use crate::choices::DeviceChoice;
@@ -26,6 +28,9 @@ pub(crate) fn run(args: &SearchCommands) -> Result<Outcome> {
 }
 
 fn run_network(args: &SearchArgs, network: Network) -> Result<Outcome> {
+    if let Some(recipe) = search_recipe::read_networks(&args.recipe, network)? {
+        return networks::run(args, recipe);
+    }
     let mut recipe = search_recipe::read(&args.recipe, network)?;
     let training = &mut recipe.training;
     training.seed = args.seed.unwrap_or(training.seed);

@@ -1,15 +1,16 @@
 //! Genotypes against each other: each trained for the same short schedule on the same data and seeds.
+mod common;
 mod entries;
-mod folder;
 mod report;
 mod times;
 mod width;
 
 pub use report::{Comparison, EntryKind, EntryResult, Group, SeedResult};
 
+use crate::folder::Folder;
 use burn::tensor::Device;
+use common::common_text;
 use entries::{Body, Entry, read_entries};
-use folder::{Folder, common_text};
 use normalight_run::{Caller, RunError, RunEvent, RunState, check, sha256};
 use normalight_train::{
     LightTask, NetworkRecipe, NormalTask, Predictor, SampleMaker, Source, Task, TrainError,
@@ -20,6 +21,8 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use times::Times;
+
+const RESULT: &str = "compare.json";
 
 /// What is the same for all that are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -183,7 +186,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
             }
         }
         comparison.state = self.train_all(&folder, &mut comparison, observe)?;
-        folder.write(&comparison)?;
+        folder.write_json(RESULT, &comparison)?;
         Ok(comparison)
     }
 
@@ -231,7 +234,7 @@ impl<'a, T: Task> ComparisonRunner<'a, T> {
                 comparison.entries[index].add(result);
                 comparison.summarise();
                 if trained {
-                    folder.write(comparison)?;
+                    folder.write_json(RESULT, comparison)?;
                 }
             }
         }

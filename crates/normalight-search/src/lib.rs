@@ -7,8 +7,10 @@ mod card;
 mod compare;
 mod derive;
 mod drawing;
+mod folder;
 mod history;
 mod learner;
+mod networks;
 mod random;
 mod recipe;
 mod run;
@@ -20,6 +22,11 @@ mod task;
 pub use budget::{Budget, Measure, OperationTime, OperationTimes};
 pub use compare::{
     CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal, Group, SeedResult, compare,
+};
+pub use networks::{
+    CandidateResult, Goal, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe,
+    NetworkSearchResult, NetworkSearchRun, NetworkSearchSettings, NetworkSpace, Rung,
+    search_networks,
 };
 pub use random::random_genotypes;
 pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};

@@ -75,7 +75,7 @@ fn cell(space: &SearchSpace, random: &mut Pcg32) -> Cell {
 }
 
 /// A number from 0 to before `end`; the bias of so few values is nothing.
-fn below(end: usize, random: &mut Pcg32) -> usize {
+pub(super) fn below(end: usize, random: &mut Pcg32) -> usize {
     random.next_u32() as usize % end
 }
 

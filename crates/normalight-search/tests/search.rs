@@ -3,6 +3,8 @@
 /// Tiny trainings, as the training's own tests have them.
 #[path = "../../normalight-train/tests/common/mod.rs"]
 mod common;
+#[path = "search/networks.rs"]
+mod networks;
 
 use burn::tensor::Device;
 use common::{LIGHT, NORMAL, contents, text, whole};

@@ -2,7 +2,7 @@ use crate::choices::{DeviceChoice, EqualChoice};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-/// Searches for the cells of a network.
+/// Searches for cells, or for whole networks.
 #[derive(Debug, Args)]
 pub(crate) struct SearchCommands {
     #[command(subcommand)]
@@ -29,10 +29,12 @@ pub(crate) enum SearchCommand {
 #[derive(Debug, Args)]
 #[command(after_help = SEARCH_EXAMPLES)]
 pub(crate) struct SearchArgs {
-    /// `laptop`, `paper`, or a TOML file.
+    /// `laptop`, `paper`, `networks`, or a TOML file.
     ///
-    /// laptop: an hour or so on a few cores, without any files. paper: as published; needs the Blobby and
-    /// Sculpture sets in the current folder, and a GPU.
+    /// laptop: cells; an hour or so on a few cores, without any files. paper: cells as published; needs the
+    /// Blobby and Sculpture sets in the current folder, and a GPU. networks: whole networks, by successive
+    /// halving of random ones; an hour and a half on two cores. It writes search.json, and a training recipe
+    /// for each network on the front of error against cost; the same command goes on where it was.
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) recipe: String,
     /// Folder of the run; made when missing.

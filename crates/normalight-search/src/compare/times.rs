@@ -1,6 +1,6 @@
 //! Equal training times: how long a step of everything takes, and how many steps that leaves it.
-use super::folder::Folder;
 use super::{CompareEvent, Entry, Observe};
+use crate::folder::Folder;
 use burn::tensor::Device;
 use normalight_run::{BatchMaker, Learner, sha256};
 use normalight_train::{Batch, NetworkLearner, SampleMaker, Task, TrainError, TrainRecipe};

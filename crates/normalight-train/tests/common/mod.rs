@@ -7,7 +7,7 @@ use normalight_train::{TrainError, TrainRecipe, TrainRun, train};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The normal network on little crops, and the light network on its smallest views.
 pub const NORMAL: &str = "network = \"normal\"\nsize = 16\nbatch = 2\nimages = [3, 4]\n\
@@ -17,6 +17,11 @@ pub const LIGHT: &str = "network = \"light\"\nsize = 64\nbatch = 2\nimages = [3,
 
 /// Random weights come from a generator that all tests of a process share.
 static GENERATOR: Mutex<()> = Mutex::new(());
+
+/// Keeps other tests of this process from drawing random weights meanwhile.
+pub fn alone() -> MutexGuard<'static, ()> {
+    GENERATOR.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// What a run did.
 #[derive(Debug)]
@@ -45,7 +50,7 @@ pub fn run(
     resume: bool,
     stop_at: Option<usize>,
 ) -> Result<Ran, TrainError> {
-    let _alone = GENERATOR.lock().unwrap_or_else(PoisonError::into_inner);
+    let _alone = alone();
     let run = TrainRun {
         recipe: recipe.clone(),
         folder: folder.to_owned(),
