@@ -24,7 +24,7 @@ pub use compare::{
     CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal, Group, SeedResult, compare,
 };
 pub use networks::{
-    CandidateResult, Goal, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe,
+    Candidate, CandidateResult, Goal, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe,
     NetworkSearchResult, NetworkSearchRun, NetworkSearchSettings, NetworkSpace, Rung,
     search_networks,
 };

@@ -8,4 +8,4 @@ mod space;
 pub use halving::{NetworkSearchEvent, NetworkSearchRun, search_networks};
 pub use recipe::{Goal, NetworkSearchRecipe, NetworkSearchSettings};
 pub use result::{CandidateResult, NetworkSearchResult, Rung};
-pub use space::{NetworkBody, NetworkSpace};
+pub use space::{Candidate, NetworkBody, NetworkSpace};

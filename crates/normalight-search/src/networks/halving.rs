@@ -1,7 +1,7 @@
 //! Successive halving: candidates trained for a short schedule, the better ones for longer ones.
 use super::recipe::{Goal, IMAGES, NetworkSearchRecipe};
 use super::result::{CandidateResult, NetworkSearchResult, Rung};
-use super::space::NetworkBody;
+use super::space::Candidate;
 use crate::folder::Folder;
 use burn::tensor::{Device, Distribution, Tensor};
 use normalight_io::write_files;
@@ -84,7 +84,7 @@ fn halve(
 ) -> Result<NetworkSearchResult, TrainError> {
     let recipe = &run.recipe;
     recipe.validate()?;
-    let bodies = recipe.candidates()?;
+    let candidates = recipe.candidates()?;
     let mut free = recipe.clone();
     // It changes no result.
     free.training.loader_threads = None;
@@ -98,7 +98,7 @@ fn halve(
         rounds: Vec::new(),
     };
     let times = match recipe.search.goal {
-        Goal::Time => match times(&folder, &bodies, recipe, device, observe)? {
+        Goal::Time => match times(&folder, &candidates, recipe, device, observe)? {
             Some(times) => Some(times),
             None => {
                 result.state = RunState::Interrupted;
@@ -107,7 +107,7 @@ fn halve(
         },
         Goal::MultiplyAdds | Goal::Parameters => None,
     };
-    let mut left: Vec<usize> = (1..=bodies.len()).collect();
+    let mut left: Vec<usize> = (1..=candidates.len()).collect();
     for round in 0..=recipe.search.keep.len() {
         result.rounds.push(Rung {
             steps: recipe.steps(round),
@@ -115,20 +115,20 @@ fn halve(
             tau: None,
         });
         for &number in &left {
-            let body = &bodies[number - 1];
-            let mut training = body.trained_as(&recipe.training)?;
+            let candidate = &candidates[number - 1];
+            let mut training = candidate.trained_as(&recipe.training)?;
             training.steps = recipe.steps(round);
             let times = times.as_ref().and_then(|times| times.get(&number));
             let milliseconds = times.map(|&microseconds| microseconds as f64 / 1000.0);
             let candidate = CandidateResult {
                 number,
                 parameters: training.parameters(),
-                multiply_adds: training.network.multiply_adds(IMAGES, training.size),
+                multiply_adds: recipe.multiply_adds(&training),
                 milliseconds,
                 degrees: None,
                 hours: None,
                 on_front: false,
-                body: body.clone(),
+                candidate: candidate.clone(),
             };
             let Some(candidate) = trained(run, device, (round, candidate), training, observe)?
             else {
@@ -204,7 +204,7 @@ fn write_front(run: &NetworkSearchRun, result: &NetworkSearchResult) -> Result<(
         .map_or(&[][..], |rung| &rung.candidates);
     let mut files = Vec::new();
     for candidate in last.iter().filter(|one| one.on_front) {
-        let recipe = candidate.body.trained_as(&run.recipe.training)?;
+        let recipe = candidate.candidate.trained_as(&run.recipe.training)?;
         files.push((
             format!("front-{}.toml", candidate.number),
             recipe.to_toml()?,
@@ -216,7 +216,7 @@ fn write_front(run: &NetworkSearchRun, result: &NetworkSearchResult) -> Result<(
 /// Microseconds of each candidate by its number: those that the folder keeps, or new ones; nothing when it was stopped.
 fn times(
     folder: &Folder,
-    bodies: &[NetworkBody],
+    candidates: &[Candidate],
     recipe: &NetworkSearchRecipe,
     device: &Device,
     observe: &mut dyn FnMut(NetworkSearchEvent) -> ControlFlow<()>,
@@ -228,13 +228,13 @@ fn times(
     for turn in 1..=TIMED {
         let note = format!(
             "measures the time of {} networks, {turn} of {TIMED}",
-            bodies.len()
+            candidates.len()
         );
         if observe(NetworkSearchEvent::Note(note)).is_break() {
             return Ok(None);
         }
-        for (place, body) in bodies.iter().enumerate() {
-            let took = microseconds(&body.trained_as(&recipe.training)?, device)?;
+        for (place, candidate) in candidates.iter().enumerate() {
+            let took = microseconds(&candidate.trained_as(&recipe.training)?, device)?;
             let best = shortest.entry(place + 1).or_insert(u64::MAX);
             *best = (*best).min(took);
         }

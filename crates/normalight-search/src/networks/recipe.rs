@@ -1,8 +1,8 @@
 //! The recipe of a search of whole networks.
-use super::space::{NetworkBody, NetworkSpace};
+use super::space::{Candidate, NetworkSpace};
 use normalight_run::{RunError, check, read_text};
 use normalight_synth::scrambled;
-use normalight_train::{TrainError, TrainRecipe, read_table};
+use normalight_train::{Network, TrainError, TrainRecipe, read_table};
 use rand_pcg::Pcg32;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -186,8 +186,8 @@ impl NetworkSearchRecipe {
     ///
     /// # Errors
     /// [`RunError::Value`] when the bounds admit nearly none.
-    pub fn candidates(&self) -> Result<Vec<NetworkBody>, TrainError> {
-        let mut found: Vec<NetworkBody> = Vec::new();
+    pub fn candidates(&self) -> Result<Vec<Candidate>, TrainError> {
+        let mut found: Vec<Candidate> = Vec::new();
         for number in 0..self.search.candidates as u64 {
             let seed = scrambled((self.training.seed << 32) + number);
             let mut random = Pcg32::new(seed, 1);
@@ -195,26 +195,35 @@ impl NetworkSearchRecipe {
                 let network = self.training.network.kind();
                 self.search.networks.draw(network, &mut random)
             });
-            let fits = |body: &NetworkBody| !found.contains(body) && self.admits(body);
-            let Some(body) = draws.find(fits) else {
+            let fits = |one: &Candidate| !found.contains(one) && self.admits(one);
+            let Some(candidate) = draws.find(fits) else {
                 return Err(TrainError::Run(RunError::Value {
                     field: "search.multiply_adds and search.parameters",
                     found: format!("fewer than one in {MOST_DRAWS} random networks within them"),
                     expected: "bounds that more networks meet",
                 }));
             };
-            found.push(body);
+            found.push(candidate);
         }
         Ok(found)
     }
 
+    /// Multiply-adds for ten images: of a normal network with pictures of the recipe's size, whatever it is trained on.
+    pub(super) fn multiply_adds(&self, recipe: &TrainRecipe) -> u64 {
+        let size = match recipe.network.kind() {
+            Network::Normal => self.training.size,
+            Network::Light => recipe.size,
+        };
+        recipe.network.multiply_adds(IMAGES, size)
+    }
+
     /// Whether a candidate can be trained and keeps within the bounds.
-    fn admits(&self, body: &NetworkBody) -> bool {
-        let Ok(recipe) = body.trained_as(&self.training) else {
+    fn admits(&self, candidate: &Candidate) -> bool {
+        let Ok(recipe) = candidate.trained_as(&self.training) else {
             return false;
         };
         let search = &self.search;
-        let multiply_adds = recipe.network.multiply_adds(IMAGES, recipe.size);
+        let multiply_adds = self.multiply_adds(&recipe);
         let parameters = recipe.parameters();
         recipe.validate().is_ok()
             && search

@@ -1,7 +1,7 @@
 //! What a search of whole networks gives: `search.json`, and a table for people.
 use super::front::{is_on_front, kendall, preferred};
 use super::recipe::Goal;
-use super::space::NetworkBody;
+use super::space::Candidate;
 use normalight_run::RunState;
 use normalight_train::Network;
 use serde::{Deserialize, Serialize};
@@ -49,8 +49,9 @@ pub struct CandidateResult {
     pub hours: Option<f64>,
     /// Whether none of its round is better in both.
     pub on_front: bool,
-    /// Its layers.
-    pub body: NetworkBody,
+    /// What it is.
+    #[serde(flatten)]
+    pub candidate: Candidate,
 }
 
 impl CandidateResult {

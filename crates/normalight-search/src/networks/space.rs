@@ -26,6 +26,9 @@ pub struct NetworkSpace {
     pub pixel_widths: Vec<usize>,
     /// Units of a light network's hidden layer.
     pub hidden: Vec<usize>,
+    /// Sides of training pictures: crops for a normal network (of which a batch then holds as many as make as many pixels),
+    /// views for a light network. Empty: the recipe's.
+    pub sizes: Vec<usize>,
 }
 
 impl Default for NetworkSpace {
@@ -38,6 +41,7 @@ impl Default for NetworkSpace {
             most_exchanges: 1,
             pixel_widths: vec![0, 8, 16, 32],
             hidden: vec![32, 64, 128, 256],
+            sizes: Vec::new(),
         }
     }
 }
@@ -52,19 +56,33 @@ pub enum NetworkBody {
     Normal(StagedNormal),
 }
 
-impl NetworkBody {
+/// A network of the space, and the pictures that it is trained on.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Candidate {
+    /// Side of training pictures in pixels; the recipe's where missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<usize>,
+    /// Its layers.
+    pub body: NetworkBody,
+}
+
+impl Candidate {
     /// The recipe with this network in place of its own.
     ///
     /// # Errors
     /// [`RunError::Value`] for a recipe of the other network.
     pub fn trained_as(&self, recipe: &TrainRecipe) -> Result<TrainRecipe, TrainError> {
         let mut recipe = recipe.clone();
-        match (&mut recipe.network, self) {
-            (NetworkRecipe::Light(settings), Self::Light(staged)) => {
+        let size = self.size.unwrap_or(recipe.size);
+        match (&mut recipe.network, &self.body) {
+            (NetworkRecipe::Light(settings), NetworkBody::Light(staged)) => {
                 settings.architecture.body = LightBody::Staged(staged.clone());
+                settings.architecture.input_size = size;
             }
-            (NetworkRecipe::Normal(settings), Self::Normal(staged)) => {
+            (NetworkRecipe::Normal(settings), NetworkBody::Normal(staged)) => {
                 settings.architecture.body = NormalBody::Staged(staged.clone());
+                let pixels = recipe.batch * recipe.size * recipe.size;
+                recipe.batch = (pixels / (size * size)).max(1);
             }
             (network, _) => {
                 return Err(TrainError::Run(RunError::Value {
@@ -74,6 +92,7 @@ impl NetworkBody {
                 }));
             }
         }
+        recipe.size = size;
         Ok(recipe)
     }
 }
@@ -90,6 +109,7 @@ impl NetworkSpace {
                 check(field, value, least..=1024, "numbers up to 1024")?;
             }
         }
+        check("search.sizes", self.sizes.len(), 0..=64, "up to 64 of them")?;
         check("search.kinds", self.kinds.len(), 1..=4, "1 to 4 of them")?;
         check("search.most_layers", self.most_layers, 1..=8, "1 to 8")?;
         check("search.most_halvings", self.most_halvings, 1..=3, "1 to 3")?;
@@ -98,11 +118,13 @@ impl NetworkSpace {
     }
 
     /// One network, each setting drawn evenly from its range; widths do not shrink on the way down.
-    pub(super) fn draw(&self, network: Network, random: &mut Pcg32) -> NetworkBody {
-        match network {
+    pub(super) fn draw(&self, network: Network, random: &mut Pcg32) -> Candidate {
+        let body = match network {
             Network::Normal => NetworkBody::Normal(self.normal(random)),
             Network::Light => NetworkBody::Light(self.light(random)),
-        }
+        };
+        let size = (!self.sizes.is_empty()).then(|| pick(&self.sizes, random));
+        Candidate { size, body }
     }
 
     fn normal(&self, random: &mut Pcg32) -> StagedNormal {

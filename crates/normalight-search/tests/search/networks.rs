@@ -4,8 +4,8 @@ use burn::tensor::Device;
 use normalight_model::{LayerKind, Meeting};
 use normalight_run::{Caller, RunEvent, RunState};
 use normalight_search::{
-    NetworkBody, NetworkSearchEvent, NetworkSearchRecipe, NetworkSearchResult, NetworkSearchRun,
-    search_networks,
+    Candidate, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe, NetworkSearchResult,
+    NetworkSearchRun, search_networks,
 };
 use normalight_train::{TrainError, TrainRecipe};
 use std::collections::HashSet;
@@ -59,16 +59,16 @@ fn candidates_fill_the_space_and_keep_within_the_bounds() {
     let recipe = recipe(&format!("{NORMAL}steps = 1\n{search}{bounds}"));
     let found = recipe.candidates().unwrap();
     assert_eq!(found, recipe.candidates().unwrap());
-    let distinct: HashSet<&NetworkBody> = found.iter().collect();
+    let distinct: HashSet<&Candidate> = found.iter().collect();
     assert_eq!(distinct.len(), 60);
     let mut seen = HashSet::new();
-    for body in &found {
-        let training = body.trained_as(&recipe.training).unwrap();
+    for candidate in &found {
+        let training = candidate.trained_as(&recipe.training).unwrap();
         training.validate().unwrap();
         assert!(training.parameters() <= 300_000);
         let cost = training.network.multiply_adds(10, training.size);
         assert!((10_000_000..=200_000_000).contains(&cost));
-        let NetworkBody::Normal(staged) = body else {
+        let NetworkBody::Normal(staged) = &candidate.body else {
             panic!("a light network")
         };
         let stages = || staged.down.iter().chain(&staged.up).chain(&staged.fused);
@@ -97,11 +97,32 @@ fn candidates_fill_the_space_and_keep_within_the_bounds() {
         assert!(seen.contains(word), "{word}");
     }
     let lights = self::recipe(&format!("{LIGHT}steps = 1\n{search}"));
-    for body in lights.candidates().unwrap() {
-        body.trained_as(&lights.training)
+    for candidate in lights.candidates().unwrap() {
+        candidate
+            .trained_as(&lights.training)
             .unwrap()
             .validate()
             .unwrap();
+    }
+}
+
+#[test]
+fn pictures_may_have_other_sizes() {
+    let search = "[search]\nspace = \"network\"\ncandidates = 12\nkeep = []\n[search.networks]\n";
+    let normals = recipe(&format!("{NORMAL}steps = 1\n{search}sizes = [16, 32]\n"));
+    let recipes = normals.candidates().unwrap();
+    let recipes = recipes
+        .iter()
+        .map(|one| one.trained_as(&normals.training).unwrap());
+    // As many pixels a batch, of which there must be one picture at least: two of 16 x 16 are half of one of 32 x 32.
+    let found: HashSet<(usize, usize)> =
+        recipes.map(|recipe| (recipe.size, recipe.batch)).collect();
+    assert_eq!(found, HashSet::from([(16, 2), (32, 1)]));
+    let lights = recipe(&format!("{LIGHT}steps = 1\n{search}sizes = [64, 96]\n"));
+    for candidate in lights.candidates().unwrap() {
+        let recipe = candidate.trained_as(&lights.training).unwrap();
+        assert_eq!(Some(recipe.size), candidate.size);
+        recipe.validate().unwrap();
     }
 }
 
