@@ -321,6 +321,12 @@ mod tests {
         let read = |index: usize| Ok(texts[index].1.to_owned());
         let found = find_list(&names, read).unwrap();
         assert_eq!(found.map(|(index, _)| index), Some(2));
+        // Names of people, and a list that is wrong.
+        let named = |text: &str| {
+            let found = find_list(&["names.txt", "1.png"], |_| Ok(text.to_owned()));
+            found.unwrap().is_some()
+        };
+        assert!(!named("Alice\nBob\n") && named("1.png\nBob\n"));
         assert!(find_list(&names[..2], read).unwrap().is_none());
     }
 }

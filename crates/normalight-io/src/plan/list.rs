@@ -3,8 +3,8 @@ use crate::IoError;
 use crate::format::{base_name, format_of_extension, split_extension};
 use crate::plan::kinds::{is_helper, says_rejects};
 
-/// The list among some files, given a way to see a file's text: `filenames.txt`, else `names.txt`,
-/// else the first `.txt` file whose lines are all image names (after an optional count) and whose
+/// The list among some files, given a way to see a file's text: `filenames.txt`, else a `names.txt` with the name of any
+/// image, else the first `.txt` file whose lines are all image names (after an optional count) and whose
 /// own name does not say that these are rejects.
 ///
 /// # Errors
@@ -18,7 +18,13 @@ pub fn find_list<S: AsRef<str>>(
             base_name(name).eq_ignore_ascii_case(wanted) && !is_helper(name)
         });
         if let Some(index) = found {
-            return Ok(Some((index, read_text(index)?)));
+            let text = read_text(index)?;
+            // Names may be those of people.
+            if wanted == "filenames.txt"
+                || text.lines().any(|line| image_name(line.trim()).is_some())
+            {
+                return Ok(Some((index, text)));
+            }
         }
     }
     let mut texts: Vec<usize> = (0..names.len())
