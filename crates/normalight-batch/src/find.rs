@@ -4,7 +4,6 @@ mod plan;
 use crate::walk::walk;
 use crate::{BatchError, Capture, CaptureKind, Found, PassedOver, PassedOverReason};
 use normalight_core::MIN_IMAGES;
-use normalight_io::is_helper;
 use plan::{FolderPlan, archives, is_result, planned};
 use std::path::{Path, PathBuf};
 
@@ -37,19 +36,17 @@ pub fn find_captures(root: &Path) -> Result<Found, BatchError> {
     // Folders that hold one photograph of a capture each.
     let mut parts = vec![false; folders.len()];
     for (folder, plan) in folders.iter().zip(&plans) {
-        let below: Vec<usize> = folder
-            .folders
-            .iter()
-            .copied()
-            .filter(|&below| !is_helper(&folders[below].path.to_string_lossy()))
-            .collect();
+        // An archive or a file of many pages is a capture of its own, whatever lies beside it.
+        let is_single = |&below: &usize| {
+            plans[below].photographs == 1 && archives(root, &folders[below]).is_empty()
+        };
         let is_parted = plan.photographs == 0
-            && below.len() >= MIN_IMAGES
-            && below.iter().all(|&below| plans[below].photographs == 1);
+            && folder.folders.len() >= MIN_IMAGES
+            && folder.folders.iter().all(is_single);
         if is_parted && !is_result(root, folder) {
-            below.iter().for_each(|&below| parts[below] = true);
+            folder.folders.iter().for_each(|&below| parts[below] = true);
             found.captures.push(Capture {
-                photographs: Some(below.len()),
+                photographs: Some(folder.folders.len()),
                 ..capture(&folder.path, CaptureKind::OneInEachFolder)
             });
         }

@@ -127,7 +127,8 @@ impl Jobs<'_> {
                 let json = record
                     .to_json()
                     .map_err(|reason| Missing::of(target, &reason))?;
-                let _ = write_files(target, &[(RECORD, json)]);
+                write(&made.0, &[(RECORD, json)])?;
+                let _ = fs::rename(made.0.join(RECORD), target.join(RECORD));
                 return Ok((Outcome::Unchanged, details));
             }
             contents = Some((time, found));

@@ -114,7 +114,7 @@ fn said(message: Option<&String>, left_out: &[String], notices: &[String]) -> Ma
     html! {
         td.said data-key=(notices.len() + usize::from(message.is_some())) {
             @if !lines.is_empty() {
-                ul { @for line in lines { li { bdi { (line) } } } }
+                ul { @for line in lines { li { bdi { (line.strip_prefix("notice: ").unwrap_or(line)) } } } }
             }
         }
     }
