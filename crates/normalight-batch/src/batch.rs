@@ -63,7 +63,7 @@ pub fn run_batch(
         work: claim.work(),
         asked,
         gate: Gate::new(settings.memory),
-        stop: AtomicBool::new(false),
+        stop: AtomicBool::new(cancel.load(Ordering::Relaxed)),
         is_full: AtomicBool::new(false),
     };
     let rows = rows(&jobs, &mine, cancel, observer);

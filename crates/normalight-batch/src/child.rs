@@ -15,6 +15,9 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Most bytes that are kept of what a job says: its last words.
 const WORDS: usize = 16 << 10;
 
+/// What the program ends with after Ctrl-C.
+const INTERRUPTED: i32 = 130;
+
 /// How long is waited for the last words of a job that is at its end.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
@@ -83,8 +86,24 @@ pub(crate) fn run(
     if status.success() {
         return Ended::Well;
     }
+    if may_be_interrupted(status) && is_set_soon(stop) {
+        return Ended::Stopped;
+    }
     let words = words.and_then(|words| words.recv_timeout(LAST_WORDS).ok());
     Ended::Badly(said(status, &words.unwrap_or_default()))
+}
+
+/// Whether a job may have ended because of Ctrl-C, which a terminal sends to it as it does to us.
+fn may_be_interrupted(status: ExitStatus) -> bool {
+    status.code().is_none_or(|code| code == INTERRUPTED)
+}
+
+/// Waits a little for the same signal to be heard here.
+fn is_set_soon(stop: &AtomicBool) -> bool {
+    (0..20).any(|_| {
+        thread::sleep(LOOK);
+        stop.load(Ordering::Relaxed)
+    })
 }
 
 /// A process that is ended when nobody waits for it any more: what it has written is of no use.

@@ -1,9 +1,11 @@
 //! The hidden folder of an output in which results are made, and who is at work there.
 use crate::{BatchError, Shard};
 use same_file::Handle;
+use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
 /// Name of the hidden folder in the output.
 pub(crate) const WORK: &str = ".batch-work";
@@ -15,8 +17,9 @@ const LOCK: &str = ".lock";
 #[derive(Debug)]
 pub(crate) struct Claim {
     base: PathBuf,
-    work: PathBuf,
-    lock: PathBuf,
+    shard: Shard,
+    /// A folder of its own: a job that outlived its batch may still write into that of the batch before. It goes first.
+    work: Option<TempDir>,
     /// Whether the file system knows locks.
     pub(crate) is_locked: bool,
     /// Holds the lock while it is open.
@@ -38,7 +41,6 @@ impl Claim {
     pub(crate) fn take(output: &Path, shard: Shard) -> Result<Self, BatchError> {
         let base = output.join(WORK);
         let lock = base.join(shard.name() + LOCK);
-        let work = base.join(shard.name());
         let failed = |path: &Path| {
             let path = path.to_owned();
             move |reason| BatchError::Write { path, reason }
@@ -66,53 +68,56 @@ impl Claim {
                 Held::No => {}
             }
         };
-        let claim = Self {
+        let mut claim = Self {
             base,
-            work,
-            lock,
+            shard,
+            work: None,
             is_locked,
             _file: file,
         };
-        claim.clear_others(shard, output)?;
-        if claim.work.exists() {
-            fs::remove_dir_all(&claim.work).map_err(failed(&claim.work))?;
-        }
-        fs::create_dir(&claim.work).map_err(failed(&claim.work))?;
+        claim.clear_others(output)?;
+        sweep(&claim.base, shard);
+        let work = tempfile::Builder::new()
+            .prefix(&format!("{}.", shard.name()))
+            .tempdir_in(&claim.base);
+        claim.work = Some(work.map_err(failed(&claim.base))?);
         Ok(claim)
     }
 
     /// The folder in which results of this shard are made.
     pub(crate) fn work(&self) -> &Path {
-        &self.work
+        self.work.as_ref().map_or(&self.base, TempDir::path)
     }
 
     /// Looks at other shards: those of another division must not be at work, and what dead ones left goes.
-    fn clear_others(&self, mine: Shard, output: &Path) -> Result<(), BatchError> {
-        for entry in fs::read_dir(&self.base).into_iter().flatten().flatten() {
-            let (path, name) = (entry.path(), entry.file_name());
-            let Some(name) = name.to_str().and_then(|name| name.strip_suffix(LOCK)) else {
+    fn clear_others(&self, output: &Path) -> Result<(), BatchError> {
+        let shards: BTreeSet<String> = names(&self.base)
+            .into_iter()
+            .filter_map(|name| Some(name.split_once('.')?.0.to_owned()))
+            .collect();
+        for name in shards {
+            let Some(shard) = Shard::of_name(&name).filter(|&shard| shard != self.shard) else {
                 continue;
             };
-            let Some(shard) = Shard::of_name(name).filter(|&shard| shard != mine) else {
-                continue;
-            };
-            let Ok(file) = File::open(&path) else {
-                continue;
-            };
-            match held(&file) {
-                Ok(Held::Yes) if shard.of() != mine.of() => {
-                    return Err(BatchError::OtherDivision {
-                        path: output.to_owned(),
-                        found: shard.of(),
-                        expected: mine.of(),
-                    });
-                }
-                Ok(Held::No) if is_at(&file, &path) => {
-                    // What stays behind goes the next time.
-                    let _ = fs::remove_dir_all(self.base.join(name));
-                    let _ = fs::remove_file(&path);
-                }
-                _ => {}
+            let path = self.base.join(name + LOCK);
+            match File::open(&path) {
+                Ok(file) => match held(&file) {
+                    Ok(Held::Yes) if shard.of() != self.shard.of() => {
+                        return Err(BatchError::OtherDivision {
+                            path: output.to_owned(),
+                            found: shard.of(),
+                            expected: self.shard.of(),
+                        });
+                    }
+                    Ok(Held::No) if is_at(&file, &path) => {
+                        sweep(&self.base, shard);
+                        let _ = fs::remove_file(&path);
+                    }
+                    _ => {}
+                },
+                // Whoever is at work has a lock.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => sweep(&self.base, shard),
+                Err(_) => {}
             }
         }
         Ok(())
@@ -121,13 +126,32 @@ impl Claim {
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // The lock is the last: what is left without one would be nobody's.
-        if fs::remove_dir_all(&self.work).is_ok() || !self.work.exists() {
-            let _ = fs::remove_file(&self.lock);
-        }
+        drop(self.work.take());
+        // Jobs that kept it from going before may have ended since.
+        sweep(&self.base, self.shard);
+        let _ = fs::remove_file(self.base.join(self.shard.name() + LOCK));
         // Fails while other shards are at work.
         let _ = fs::remove_dir(&self.base);
     }
+}
+
+/// Takes away the folders in which a shard made results. What stays behind, as jobs still write into it, goes with the next
+/// call.
+fn sweep(base: &Path, shard: Shard) {
+    let prefix = shard.name() + ".";
+    for name in names(base) {
+        if name.starts_with(&prefix) && !name.ends_with(LOCK) {
+            let _ = fs::remove_dir_all(base.join(name));
+        }
+    }
+}
+
+/// Names of what lies in the hidden folder.
+fn names(base: &Path) -> Vec<String> {
+    let entries = fs::read_dir(base).into_iter().flatten().flatten();
+    entries
+        .filter_map(|entry| entry.file_name().into_string().ok())
+        .collect()
 }
 
 /// Tries to lock a file.
@@ -187,14 +211,20 @@ mod tests {
         fs::write(living.work().join("half"), "x").unwrap();
         let base = output.path().join(WORK);
         // As killed batches leave them: nobody holds a lock.
-        for dead in ["1-of-3", "1-of-1", "2-of-3"] {
-            fs::create_dir(base.join(dead)).unwrap();
-            fs::write(base.join(dead).join("half"), "x").unwrap();
-            fs::write(base.join(format!("{dead}.lock")), "").unwrap();
+        for dead in ["1-of-3", "1-of-1", "2-of-3", "2-of-2"] {
+            let folder = base.join(format!("{dead}.x"));
+            fs::create_dir(&folder).unwrap();
+            fs::write(folder.join("half"), "x").unwrap();
+            if dead != "2-of-2" {
+                fs::write(base.join(format!("{dead}.lock")), "").unwrap();
+            }
         }
         let mine = Claim::take(output.path(), shard("1/3")).unwrap();
         assert_eq!(fs::read_dir(mine.work()).unwrap().count(), 0);
-        assert!(!base.join("1-of-1").exists() && !base.join("2-of-3").exists());
+        let left = names(&base).into_iter();
+        let left = left.filter(|name| !name.starts_with("1-of-3.") && !name.starts_with("3-of-3."));
+        assert_eq!(left.collect::<Vec<_>>(), <[String; 0]>::default());
+        assert!(!base.join("1-of-3.x").exists());
         assert!(living.work().join("half").exists());
         drop((mine, living));
         assert!(!base.exists());

@@ -126,9 +126,11 @@ impl Listing {
         self.files.iter().map(|(_, stamp)| stamp.bytes).sum()
     }
 
-    /// Full paths of the files.
-    pub(crate) fn paths(&self) -> impl Iterator<Item = PathBuf> {
-        self.files.iter().map(|(name, _)| self.folder.join(name))
+    /// Full paths of the files, the largest first: a photograph more likely than a preview or a mask.
+    pub(crate) fn largest_first(&self) -> impl Iterator<Item = PathBuf> {
+        let mut files: Vec<&(PathBuf, Stamp)> = self.files.iter().collect();
+        files.sort_by_key(|(_, stamp)| std::cmp::Reverse(stamp.bytes));
+        files.into_iter().map(|(name, _)| self.folder.join(name))
     }
 
     /// Whether these are the files of a result, by what the file system says; `read` is when they were read, in nanoseconds
