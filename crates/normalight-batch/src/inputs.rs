@@ -32,6 +32,9 @@ pub(crate) struct InputFile {
     pub(crate) sha256: String,
 }
 
+/// Each of some files, and the hash of all their names and contents in hexadecimal.
+pub(crate) type Contents = (Vec<InputFile>, String);
+
 /// The files of a capture as they are now.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Listing {
@@ -150,10 +153,7 @@ impl Listing {
     ///
     /// # Errors
     /// A file that cannot be read, with its path.
-    pub(crate) fn read(
-        &self,
-        stop: &AtomicBool,
-    ) -> Result<Option<(Vec<InputFile>, String)>, (PathBuf, io::Error)> {
+    pub(crate) fn read(&self, stop: &AtomicBool) -> Result<Option<Contents>, (PathBuf, io::Error)> {
         let mut all = Sha256::new();
         let mut files = Vec::with_capacity(self.files.len());
         for (name, stamp) in &self.files {

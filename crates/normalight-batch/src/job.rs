@@ -1,7 +1,7 @@
 //! One capture, from its files to its place in the output.
 use crate::child::{Ended, is_full, run, says_full};
 use crate::gate::Gate;
-use crate::inputs::{InputFile, Listing, now};
+use crate::inputs::{Contents, Listing, now};
 use crate::install::install;
 use crate::memory::needed;
 use crate::record::{Asked, RECORD, Record};
@@ -52,9 +52,6 @@ impl Missing {
     }
 }
 
-/// The files of a capture when they were read: when, each, and the hash of all.
-type Contents = (u64, (Vec<InputFile>, String));
-
 impl Jobs<'_> {
     /// Does a capture, or finds that it is done; `None` where everything has to end. `started` is called when there is
     /// something to be done.
@@ -102,7 +99,7 @@ impl Jobs<'_> {
         };
         let list = || Listing::of(&place, capture.kind).map_err(|reason| unread(&place, &reason));
         let files = list()?;
-        let read = || -> Result<Contents, Missing> {
+        let read = || -> Result<(u64, Contents), Missing> {
             let time = now();
             let contents = files
                 .read(&self.stop)
@@ -175,8 +172,7 @@ impl Jobs<'_> {
 fn complete(made: &Path, mut record: Record) -> Result<Details, Missing> {
     let failed = |words: String| Missing::Failed(format!("the job ended well, but: {words}"));
     let report = report(made).map_err(failed)?;
-    let thumbnails = thumbnails(made)
-        .map_err(|(map, reason)| failed(format!("{map}: cannot be read: {reason}")))?;
+    let thumbnails = thumbnails(made).map_err(failed)?;
     write(made, &thumbnails)?;
     let unlisted = |reason: io::Error| Missing::of(made, &reason);
     for entry in fs::read_dir(made).map_err(unlisted)? {

@@ -115,6 +115,22 @@ mod tests {
         assert_eq!(tga - without, 3 * 5000 * 3);
     }
 
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn there_is_not_more_memory_than_the_machine_has() {
+        let text = std::fs::read_to_string("/proc/meminfo").unwrap();
+        let total = text.lines().find(|line| line.starts_with("MemTotal:"));
+        let total: u64 = total
+            .unwrap()
+            .split_whitespace()
+            .nth(1)
+            .unwrap()
+            .parse()
+            .unwrap();
+        let available = available_memory().unwrap();
+        assert!((1 << 20..=total << 10).contains(&available), "{available}");
+    }
+
     #[test]
     fn without_a_header_the_size_of_the_files_counts() {
         let place = tempfile::tempdir().unwrap();

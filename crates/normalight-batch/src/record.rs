@@ -1,5 +1,5 @@
 //! What a result was made of, kept beside it.
-use crate::inputs::{InputFile, Listing, hex};
+use crate::inputs::{Contents, InputFile, Listing, hex};
 use crate::{BatchError, BatchSettings};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -90,7 +90,7 @@ impl Asked {
     pub(crate) fn record(
         &self,
         capture: String,
-        (inputs, contents): (Vec<InputFile>, String),
+        (inputs, contents): Contents,
         read: u64,
     ) -> Record {
         Record {

@@ -20,14 +20,12 @@ pub(crate) const SHOWN: [(&str, &str); 2] = [
 /// Names and contents of the small pictures of the maps in a folder.
 ///
 /// # Errors
-/// A map that cannot be read, with its name.
-pub(crate) fn thumbnails(
-    folder: &Path,
-) -> Result<Vec<(&'static str, Vec<u8>)>, (String, io::Error)> {
+/// A map that cannot be read, in words.
+pub(crate) fn thumbnails(folder: &Path) -> Result<Vec<(&'static str, Vec<u8>)>, String> {
     let small = |(map, name)| {
         let made = small(&folder.join(map));
         made.map(|made| (name, made))
-            .map_err(|reason| (String::from(map), reason))
+            .map_err(|reason| format!("{map}: cannot be read: {reason}"))
     };
     SHOWN.into_iter().map(small).collect()
 }

@@ -240,3 +240,13 @@ fn a_cancelled_batch_ends_its_jobs_and_goes_on_with_the_next_call() {
     fs::remove_file(place.root().join("b/behaviour.txt")).unwrap();
     assert_eq!(place.run(|_| {}).1, ["b", "c"]);
 }
+
+#[test]
+fn jobs_that_need_more_memory_than_there_is_run_one_by_one() {
+    let place = Place::new();
+    for name in ["a", "b", "c", "d", "e", "f"] {
+        place.behaving(name, "alone");
+    }
+    let (summary, _) = place.run(|settings| settings.memory = Some(1));
+    assert!(summary.is_complete(), "{:?}", outcomes(&summary));
+}

@@ -44,6 +44,12 @@ fn main() -> ExitCode {
             abort();
         }
         "hang" => sleep(Duration::from_secs(3600)),
+        "alone" => {
+            let place = capture.with_file_name("alone");
+            std::fs::File::create_new(&place).expect("nobody else at work");
+            sleep(Duration::from_millis(30));
+            std::fs::remove_file(place).expect("the own file");
+        }
         "talk" => {
             for _ in 0..20_000 {
                 eprintln!("a line of a warning that nobody reads");
