@@ -111,7 +111,7 @@ pub use normal_file::read_normals;
 pub use notice::Notice;
 pub use packed::{UnpackedFiles, is_archive};
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
-pub use plan::{StackPlan, content_decides, find_list, plan_contents, plan_stack};
+pub use plan::{StackPlan, content_decides, find_list, is_helper, plan_contents, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
 pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json};
 pub use result_files::{OutputName, RunDescription, result_files};

@@ -3,7 +3,7 @@ mod benchmark;
 mod kinds;
 mod list;
 
-pub(crate) use kinds::is_helper;
+pub use kinds::is_helper;
 pub use list::find_list;
 
 use crate::format::{base_name, is_image_content, may_hold_image, split_extension};

@@ -200,7 +200,7 @@ pub(super) fn is_visible_image(name: &str) -> bool {
 }
 
 /// Files that operating systems and programs leave beside those of people.
-pub(crate) fn is_helper(name: &str) -> bool {
+pub fn is_helper(name: &str) -> bool {
     let base = base_name(name);
     let known = ["thumbs.db", "desktop.ini", "icon\r"];
     base.starts_with('.')
