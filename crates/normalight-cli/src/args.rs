@@ -1,4 +1,5 @@
 //! What the commands take; these comments are their help.
+mod batch;
 mod bench;
 mod estimate;
 mod evaluate;
@@ -7,6 +8,7 @@ mod search;
 mod surface;
 mod train;
 
+pub(crate) use batch::BatchArgs;
 pub(crate) use bench::{
     BenchArgs, BenchCommand, BenchOpsArgs, BenchRenderArgs, BenchSearchArgs, BenchTrainArgs,
 };
@@ -40,6 +42,8 @@ Example: photographs in the folder `vase`, results into the folder `vase-normals
 pub(crate) enum Command {
     /// Photographs in, lights and normals out.
     Estimate(EstimateArgs),
+    /// Estimate every capture in a tree of folders.
+    Batch(BatchArgs),
     /// Normals in, depth, a mesh and maps out.
     Mesh(MeshArgs),
     /// Train one of the two networks on rendered samples.

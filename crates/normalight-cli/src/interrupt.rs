@@ -18,6 +18,11 @@ pub(crate) fn listen() -> Result<()> {
     .context("Ctrl-C cannot be listened to")
 }
 
+/// What says so, for work that looks at it by itself.
+pub(crate) fn flag() -> &'static AtomicBool {
+    &ASKED
+}
+
 /// Whether the work shall end.
 pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)

@@ -1,6 +1,7 @@
 //! The command `normalight`: photographs in, lights and normals out; rendering, training, search, evaluation.
 
 mod args;
+mod batch;
 mod bench;
 mod choices;
 mod device;
@@ -40,11 +41,13 @@ enum Outcome {
 }
 
 fn main() -> ExitCode {
+    normalight_batch::end_with_batch();
     display::quiet_without();
     // Wrong usage ends here, with code 2.
     let arguments = Arguments::parse();
     let outcome = interrupt::listen().and_then(|()| match &arguments.command {
         Command::Estimate(args) => estimate::run(args),
+        Command::Batch(args) => batch::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Train(args) => train::run(args),
         Command::Search(args) => search::run(args),
