@@ -99,7 +99,7 @@ impl Jobs<'_> {
         };
         let list = || Listing::of(&place, capture.kind).map_err(|reason| unread(&place, &reason));
         let files = list()?;
-        let read = || -> Result<(u64, Contents), Missing> {
+        let read = |files: &Listing| -> Result<(u64, Contents), Missing> {
             let time = now();
             let contents = files
                 .read(&self.stop)
@@ -117,7 +117,7 @@ impl Jobs<'_> {
             if is_same {
                 return Ok((Outcome::Unchanged, details));
             }
-            let (time, found) = read()?;
+            let (time, found) = read(&files)?;
             if found.1 == record.contents {
                 (record.read, record.inputs) = (time, found.0);
                 // Only spares the next call the reading.
@@ -136,16 +136,22 @@ impl Jobs<'_> {
         started();
         let (time, found) = match contents {
             Some(contents) => contents,
-            None => read()?,
+            None => read(&files)?,
         };
         let mut record = self.asked.record(capture.name(), found, time);
         let start = Instant::now();
         self.estimate(&place, &made.0)?;
         record.seconds = start.elapsed().as_secs_f64();
-        if list()? != files {
-            return Err(Missing::Failed(
-                "its files changed while they were read; call again".to_owned(),
-            ));
+        let after = list()?;
+        if after != files {
+            // Backups change what the file system says; what counts is the content.
+            let (time, found) = read(&after)?;
+            if found.1 != record.contents {
+                return Err(Missing::Failed(
+                    "its files changed while they were read; call again".to_owned(),
+                ));
+            }
+            (record.read, record.inputs) = (time, found.0);
         }
         let details = complete(&made.0, record)?;
         install(&made.0, target).map_err(|(path, reason)| Missing::of(&path, &reason))?;

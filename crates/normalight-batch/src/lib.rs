@@ -55,6 +55,6 @@ pub use find::find_captures;
 pub use memory::available_memory;
 pub use observer::{BatchObserver, Progress};
 pub use parent::{JOB_VARIABLE, end_with_batch};
-pub use row::{BatchSummary, Outcome, Row, Stopped};
+pub use row::{BatchSummary, Details, Outcome, Row, Stopped};
 pub use settings::{BatchSettings, Program};
 pub use shard::{Shard, ShardError};

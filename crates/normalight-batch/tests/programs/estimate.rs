@@ -61,6 +61,11 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
         "empty" => return ExitCode::SUCCESS,
+        "touch" => {
+            let photograph = capture.join("1.png");
+            let bytes = std::fs::read(&photograph).expect("a photograph");
+            std::fs::write(photograph, bytes).expect("the same photograph");
+        }
         "change" => {
             std::fs::write(capture.join("1.png"), "others").expect("a photograph");
         }
