@@ -30,13 +30,13 @@ pub(crate) fn run(args: &BatchArgs) -> Result<Outcome> {
     if args.dry_run {
         return say(&find_captures(&root)?, args.verbose);
     }
-    let cores = available_parallelism().map_or(1, NonZeroUsize::get);
-    let jobs = args.jobs.map_or((cores / 2).max(1), NonZeroUsize::get);
+    // Jobs that share all cores finish sooner than such that each have a part of them.
+    let cores = available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let settings = BatchSettings {
         root,
         output: args.out.clone().unwrap_or_default(),
-        program: program(args, &estimate, (cores / jobs).max(1))?,
-        jobs: NonZeroUsize::new(jobs).unwrap_or(NonZeroUsize::MIN),
+        program: program(args, &estimate)?,
+        jobs: args.jobs.unwrap_or(cores),
         memory: args
             .memory
             .or_else(|| available_memory().map(|free| (FREE * free as f64) as u64)),
@@ -79,7 +79,7 @@ fn settings_of_estimate(settings: &[String]) -> Result<EstimateArgs> {
 }
 
 /// This program, as it does one capture.
-fn program(args: &BatchArgs, estimate: &EstimateArgs, threads: usize) -> Result<Program> {
+fn program(args: &BatchArgs, estimate: &EstimateArgs) -> Result<Program> {
     let [light, normal] = default_weights()?;
     let named = [
         estimate
@@ -105,7 +105,7 @@ fn program(args: &BatchArgs, estimate: &EstimateArgs, threads: usize) -> Result<
         ),
         arguments: args.settings.iter().map(Into::into).collect(),
         files,
-        environment: vec![("RAYON_NUM_THREADS".into(), threads.to_string().into())],
+        environment: Vec::new(),
     })
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct BatchArgs {
     /// Folder for the results, the table (batch.csv) and the page (index.html); made when missing.
     #[arg(long, value_name = "DIR", required_unless_present = "dry_run")]
     pub(crate) out: Option<PathBuf>,
-    /// Captures at the same time; default: one for every two cores.
+    /// Captures at the same time; default: as many as there are cores.
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Memory in GiB that all captures at work may take together by estimation; default: most of what is
