@@ -97,6 +97,14 @@ pub enum CoreError {
         /// Number of images.
         expected: usize,
     },
+    /// Lights of which none points out of the plane of the others.
+    #[error(
+        "the {lights} lights lie in a plane: at least three must point in independent directions"
+    )]
+    LightsInPlane {
+        /// Number of lights.
+        lights: usize,
+    },
     /// Two maps that must have the same size differ.
     #[error(
         "maps of different sizes: {found_width}x{found_height} against {expected_width}x{expected_height}"
