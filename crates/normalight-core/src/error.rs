@@ -105,6 +105,24 @@ pub enum CoreError {
         /// Number of lights.
         lights: usize,
     },
+    /// Photographs that do not tell three directions of light apart.
+    #[error(
+        "the {images} images differ in fewer than three independent ways: lights in a plane, or an object without relief"
+    )]
+    RankTooLow {
+        /// Number of images.
+        images: usize,
+    },
+    /// Too few pixels of the object have neighbours on all sides.
+    #[error(
+        "{found} pixels of the object have neighbours on all sides, at least {expected} are needed"
+    )]
+    TooFewPixels {
+        /// Number of such pixels.
+        found: usize,
+        /// Smallest number that works.
+        expected: usize,
+    },
     /// Two maps that must have the same size differ.
     #[error(
         "maps of different sizes: {found_width}x{found_height} against {expected_width}x{expected_height}"

@@ -55,6 +55,7 @@ mod stack;
 mod statistics;
 mod symmetry;
 mod transfer;
+mod uncalibrated;
 mod woodham;
 
 pub use albedo::albedo_map;
@@ -88,4 +89,5 @@ pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage, evenly_spaced_indic
 pub use statistics::StackStatistics;
 pub use symmetry::Symmetry;
 pub use transfer::Transfer;
+pub use uncalibrated::{Factorisation, uncalibrated_factorisation};
 pub use woodham::{least_squares_normals, luminance};

@@ -17,7 +17,7 @@ const TILE: usize = 2048;
 /// as in [`least_squares_normals`](crate::least_squares_normals), but from the samples that Lambert's law can explain.
 ///
 /// Samples without light lie in shadow and are left out; so are, of all samples of the pixel in order of brightness, the
-/// darkest tenth (penumbra, noise) and the brightest fifth (highlights). To the rest `g` is fitted in the sense of the
+/// darkest tenth (penumbra, noise) and the brightest three tenths (highlights). To the rest `g` is fitted in the sense of the
 /// smallest sum of `|i - l.g|`, by iteratively reweighted least squares, so that what outliers remain count little; that
 /// is the sparse error of Ikehata, Wipf, Matsushita and Aizawa ("Robust photometric stereo using sparse regression", CVPR
 /// 2012) in its convex form, and the trimming is the position threshold of the benchmark of Shi et al. ("A benchmark
@@ -108,4 +108,4 @@ pub(crate) fn grey_samples(
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

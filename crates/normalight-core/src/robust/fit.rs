@@ -2,7 +2,7 @@
 use glam::{DMat3, DVec3, Vec3};
 
 /// Shares of a pixel's samples, in order of brightness, between which they are kept.
-const KEPT: [f32; 2] = [0.1, 0.8];
+const KEPT: [f32; 2] = [0.1, 0.7];
 /// Fewest samples that are fitted robustly.
 const FEW: usize = 4;
 /// Rounds of reweighting; where the vector comes to rest earlier, fewer.
@@ -20,7 +20,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// Everything that is lit but the darkest tenth and the brightest fifth; everything that is lit where that leaves
+    /// Everything that is lit but the darkest tenth and the brightest three tenths; everything that is lit where that leaves
     /// too little.
     pub fn of(values: &[f32]) -> Self {
         let mut sorted = values.to_vec();

@@ -1,10 +1,10 @@
 use super::*;
 use crate::{Samples, StackImage, Transfer, least_squares_normals, normal_error};
 
-const SIDE: usize = 32;
+pub(crate) const SIDE: usize = 64;
 
 /// Normals of a ball that fills the frame.
-fn ball() -> (NormalMap, Mask) {
+pub(crate) fn ball() -> (NormalMap, Mask) {
     let half = SIDE as f32 / 2.0;
     let normals: Vec<Vec3> = (0..SIDE * SIDE)
         .map(|pixel| {
@@ -26,7 +26,7 @@ fn ball() -> (NormalMap, Mask) {
 }
 
 /// Lights on a spiral up to some angle from the viewing axis.
-fn spiral(count: usize, most: f32) -> Vec<Light> {
+pub(crate) fn spiral(count: usize, most: f32) -> Vec<Light> {
     (0..count)
         .map(|k| {
             let tilt = most * ((k as f32 + 0.5) / count as f32).sqrt();
@@ -38,7 +38,7 @@ fn spiral(count: usize, most: f32) -> Vec<Light> {
 }
 
 /// Lambert's law with attached shadows and Blinn's highlights of a strength.
-fn photographs(normals: &NormalMap, lights: &[Light], highlight: f32) -> ImageStack {
+pub(crate) fn photographs(normals: &NormalMap, lights: &[Light], highlight: f32) -> ImageStack {
     let image = |light: &Light| StackImage {
         name: String::new(),
         width: SIDE,
