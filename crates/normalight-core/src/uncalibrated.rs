@@ -42,9 +42,11 @@ pub struct Factorisation {
 /// 4. A bulge lit from one side looks like a dent lit from the other. Objects bulge: the sign is taken for which normals
 ///    lean away from the object's middle.
 ///
-/// On the five objects of DiLiGenT at hand the normals' errors lie below the published ones of Papadhimitri and Favaro's
-/// maxima of diffuse reflectance ("A closed-form, consistent and robust solution to uncalibrated photometric stereo via
-/// local diffuse reflectance maxima", 2014) on average; those maxima as the third step, tried as well, gave worse.
+/// On the five objects of DiLiGenT at hand, 96 images each, the normals' mean errors are: ball 2.7 degrees, cat 13.4, bear
+/// 5.7, cow 23.9, reading 15.7, on average 12.3. Published of Papadhimitri and Favaro's maxima of diffuse reflectance ("A
+/// closed-form, consistent and robust solution to uncalibrated photometric stereo via local diffuse reflectance maxima",
+/// 2014) are 4.8, 9.5, 9.1, 19.5 and 24.2, on average 13.4; such maxima as the third step here gave more. Of metal (cow)
+/// the lights are wrong by 21 degrees, and eight images are too few: there even the ball's are wrong.
 ///
 /// # Errors
 /// [`CoreError::TooFewImages`] below four images; [`CoreError::RankTooLow`] where the photographs differ in fewer than
