@@ -50,7 +50,7 @@ pub struct Factorisation {
 ///
 /// # Errors
 /// [`CoreError::TooFewImages`] below four images; [`CoreError::RankTooLow`] where the photographs differ in fewer than
-/// three ways (lights in a plane, a flat object); [`CoreError::TooFewPixels`] for an object without neighbouring pixels;
+/// three ways (lights in a plane, a flat object) or one shows no light; [`CoreError::TooFewPixels`] for an object without neighbouring pixels;
 /// the errors of [`ImageStack::check_mask`].
 pub fn uncalibrated_factorisation(
     stack: &ImageStack,

@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 const SIDE: usize = 30;
 
 /// What the program answers; `None`, with a word on standard output, where it cannot run.
+#[allow(clippy::unwrap_used)]
 fn by_numpy(given: &Value) -> Option<Value> {
     let numpy = Command::new("python3")
         .args(["-c", "import numpy"])

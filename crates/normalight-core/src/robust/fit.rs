@@ -142,10 +142,8 @@ impl Fitter {
         let gram = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
         let third = (xx + yy + zz) / 3.0;
         // What is left of the lights may lie in a plane, though all of them do not.
-        if !(gram.determinant() > 1e-6 * third.powi(3)) {
-            return None;
-        }
+        let determined = gram.determinant() > 1e-6 * third.powi(3);
         let fitted = (gram.inverse() * DVec3::new(x, y, z)).as_vec3();
-        fitted.is_finite().then_some(fitted)
+        (determined && fitted.is_finite()).then_some(fitted)
     }
 }

@@ -12,7 +12,7 @@ const WEIGHINGS: usize = 4;
 /// Pixels that are lit in so many of the images start the factors.
 const LIT: f32 = 0.9;
 /// The third eigenvalue as a share of the first below which there are only two, and the factor by which it must exceed
-/// the fourth. Rounding to 8 bits alone gives 1e-6.
+/// the fourth. What rounding to 8 bits alone adds lies far below.
 const RANK: [f64; 2] = [1e-5, 1.1];
 
 /// Vectors of the pixels and of the images, whose products are the samples; up to one invertible matrix.
@@ -159,7 +159,7 @@ fn reweighted(rows: &[(Vec3, f32)], vector: Vec3) -> Option<Vec3> {
         sum += row * (weight * f64::from(value));
     }
     let trace = gram.x_axis.x + gram.y_axis.y + gram.z_axis.z;
-    let open = !(gram.determinant() > 1e-9 * (trace / 3.0).powi(3));
+    let determined = gram.determinant() > 1e-9 * (trace / 3.0).powi(3);
     let next = (gram.inverse() * sum).as_vec3();
-    (!open && next.is_finite()).then_some(next)
+    (determined && next.is_finite()).then_some(next)
 }

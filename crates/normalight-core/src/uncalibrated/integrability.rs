@@ -49,7 +49,8 @@ pub(super) fn integrable(vectors: &[DVec3], sampled: &Sampled) -> Result<[DVec3;
     let [p1_p3, p2_p3] = [0, 3].map(|at| DVec3::from_slice(&six[at..at + 3]));
     let third = p1_p3.cross(p2_p3);
     let scale = ((p1_p3.length_squared() + p2_p3.length_squared()) / 2.0).sqrt();
-    if !(third.length() > 1e-6 * scale * scale) {
+    let independent = third.length() > 1e-6 * scale * scale;
+    if !independent {
         return Err(low());
     }
     // Lights s' of the whitened frame are W^-T s.
