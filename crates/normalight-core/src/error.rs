@@ -97,6 +97,32 @@ pub enum CoreError {
         /// Number of images.
         expected: usize,
     },
+    /// Lights of which none points out of the plane of the others.
+    #[error(
+        "the {lights} lights lie in a plane: at least three must point in independent directions"
+    )]
+    LightsInPlane {
+        /// Number of lights.
+        lights: usize,
+    },
+    /// Photographs that do not tell three directions of light apart.
+    #[error(
+        "the {images} images differ in fewer than three independent ways: lights in a plane, or an object without relief"
+    )]
+    RankTooLow {
+        /// Number of images.
+        images: usize,
+    },
+    /// Too few pixels of the object have neighbours on all sides.
+    #[error(
+        "{found} pixels of the object have neighbours on all sides, at least {expected} are needed"
+    )]
+    TooFewPixels {
+        /// Number of such pixels.
+        found: usize,
+        /// Smallest number that works.
+        expected: usize,
+    },
     /// Two maps that must have the same size differ.
     #[error(
         "maps of different sizes: {found_width}x{found_height} against {expected_width}x{expected_height}"

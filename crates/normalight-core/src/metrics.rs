@@ -7,6 +7,8 @@ use std::f32::consts::FRAC_PI_2;
 pub struct NormalError {
     /// Mean angle in radians.
     pub mean: f32,
+    /// Median angle in radians; of an even number the mean of the middle two.
+    pub median: f32,
     /// Share (0..1) of pixels under 11.25, 22.5 and 30 degrees.
     pub shares: [f32; 3],
     /// Number of pixels compared.
@@ -51,7 +53,7 @@ pub fn normal_error_between(pairs: impl IntoIterator<Item = (Vec3, Vec3)>) -> No
     const LIMITS: [f32; 3] = [11.25, 22.5, 30.0];
     let mut sum = 0.0f64;
     let mut under = [0usize; 3];
-    let mut pixels = 0usize;
+    let mut angles = Vec::new();
     for (estimate, truth) in pairs {
         if truth == Vec3::ZERO {
             continue;
@@ -62,16 +64,31 @@ pub fn normal_error_between(pairs: impl IntoIterator<Item = (Vec3, Vec3)>) -> No
             angle_between(estimate, truth)
         };
         sum += f64::from(angle);
-        pixels += 1;
+        angles.push(angle);
         for (count, limit) in under.iter_mut().zip(LIMITS) {
             *count += usize::from(angle.to_degrees() < limit);
         }
     }
+    let pixels = angles.len();
     let total = pixels.max(1) as f32;
     NormalError {
         mean: (sum / f64::from(total)) as f32,
+        median: median(&mut angles),
         shares: under.map(|count| count as f32 / total),
         pixels,
+    }
+}
+
+/// The middle one, or the mean of the middle two; 0 of none.
+fn median(values: &mut [f32]) -> f32 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let (middle, even) = (values.len() / 2, values.len().is_multiple_of(2));
+    let (below, &mut upper, _) = values.select_nth_unstable_by(middle, f32::total_cmp);
+    match below.iter().copied().max_by(f32::total_cmp) {
+        Some(lower) if even => (lower + upper) / 2.0,
+        _ => upper,
     }
 }
 
