@@ -1,6 +1,6 @@
 //! Against published data that lives outside the project; skipped where it is missing.
 use normalight_core::{
-    MaskSource, least_squares_normals, mean_light_error, normal_error, robust_normals,
+    MaskSource, NormalMap, least_squares_normals, mean_light_error, normal_error, robust_normals,
     uncalibrated_factorisation,
 };
 use normalight_io::{
@@ -64,7 +64,7 @@ fn classical_methods_reproduce_the_ball() {
     };
     let object = read_diligent_object(&folder, None).unwrap();
     let (stack, mask) = (&object.input.stack, &object.input.mask);
-    let degrees = |normals| {
+    let degrees = |normals: &NormalMap| {
         let error = normal_error(normals, &object.normals, mask).unwrap();
         error.mean.to_degrees()
     };
