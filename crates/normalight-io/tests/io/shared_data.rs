@@ -56,7 +56,7 @@ fn woodham_reproduces_the_published_figures() {
     }
 }
 
-/// Published: 4.10 by least squares, 2.54 by sparse regression, 4.77 without lights.
+/// Published: 4.10 by least squares, 4.77 without lights.
 #[test]
 fn classical_methods_reproduce_the_ball() {
     let Some(folder) = shared("diligent-crop/ballPNG") else {
