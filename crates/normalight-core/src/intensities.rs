@@ -1,4 +1,5 @@
 //! Brightness of lamps whose directions are known.
+use crate::woodham::{NEARLY_FLAT, mean_outer};
 use crate::{ImageStack, Light, Mask, evenly_spaced_indices, luminance};
 use glam::{Mat3, Vec3};
 
@@ -30,9 +31,7 @@ pub fn intensities_from_directions(
 ) -> Option<Vec<f32>> {
     assert_eq!(lights.len(), stack.len());
     let directions: Vec<Vec3> = lights.iter().map(|light| light.direction).collect();
-    let gram = directions.iter().map(|&l| outer(l));
-    let gram = gram.fold(Mat3::ZERO, |sum, one| sum + one) * (1.0 / lights.len() as f32);
-    if lights.len() < FEWEST || gram.determinant() < 1e-5 {
+    if lights.len() < FEWEST || mean_outer(&directions).determinant() < NEARLY_FLAT {
         return None;
     }
     let samples = samples(stack, mask);

@@ -1,6 +1,6 @@
 //! Whether lights that were given fit the photographs: at its outline an object turns outwards, so that it must be brightest
 //! there when the light comes from outside.
-use crate::woodham::outer;
+use crate::woodham::{NEARLY_FLAT, mean_outer, outer};
 use crate::{ImageStack, Light, Mask, luminance};
 use glam::{DMat3, Mat3, Vec2, Vec3};
 
@@ -190,10 +190,9 @@ fn thinned<T: Copy>(all: Vec<T>) -> Vec<T> {
 /// Least-squares normals of single pixels under these lights (Woodham 1980); zero for black ones. `None` for lights in a
 /// plane.
 fn normals(stack: &ImageStack, lights: &[Light], pixels: &[usize]) -> Option<Vec<Vec3>> {
-    let gram = lights.iter().map(|light| outer(light.direction.as_dvec3()));
-    let gram = gram.fold(DMat3::ZERO, |sum, one| sum + one) / lights.len() as f64;
-    // Of unit vectors all over the half in front of an object, 0.03 and more.
-    if gram.determinant() < 1e-5 {
+    let directions: Vec<Vec3> = lights.iter().map(|light| light.direction).collect();
+    let gram = mean_outer(&directions);
+    if gram.determinant() < NEARLY_FLAT {
         return None;
     }
     let gram = gram.as_mat3();

@@ -3,10 +3,11 @@ mod fit;
 
 pub(crate) use fit::{Fitter, Kept, l1_weight};
 
+use crate::woodham::{FLAT, mean_outer};
 use crate::{
     CalibratedStack, CoreError, ImageStack, Light, Mask, NormalMap, luminance, on_all_cores,
 };
-use glam::{DMat3, Vec3};
+use glam::Vec3;
 
 /// Fewest photographs: three determine a normal, and nothing could be told to be an outlier.
 pub(crate) const FEWEST_IMAGES: usize = 4;
@@ -73,15 +74,10 @@ pub(crate) fn enough_images(stack: &ImageStack) -> Result<(), CoreError> {
     Ok(())
 }
 
-/// Whether directions span no space: their mean outer product is singular. Of lights all over the half in front of an
-/// object its determinant is 0.03 and more, of lights all over a cone of ten degrees 6e-5.
+/// Whether directions span no space at all.
 pub(crate) fn in_a_plane(directions: &[Vec3]) -> bool {
-    let gram = directions
-        .iter()
-        .map(|l| crate::woodham::outer(l.as_dvec3()));
-    let gram = gram.fold(DMat3::ZERO, |sum, one| sum + one) * (1.0 / directions.len() as f64);
-    let determinant = gram.determinant();
-    determinant.is_nan() || determinant <= 1e-7
+    let determinant = mean_outer(directions).determinant();
+    determinant.is_nan() || determinant <= FLAT
 }
 
 /// Grey values of some pixels after division by each image's intensity per channel.

@@ -69,6 +69,17 @@ pub fn least_squares_normals(
     Ok((NormalMap::new(width, height, scaled), albedo))
 }
 
+/// Determinants of [`mean_outer`] of directions that span nearly no space, too little for what is doubtful anyway, and none.
+pub(crate) const NEARLY_FLAT: f64 = 1e-5;
+pub(crate) const FLAT: f64 = 1e-7;
+
+/// Mean outer product of directions: its determinant says how far they span space. Of lights all over the half in front of an
+/// object it is 0.03 and more, of lights all over a cone of ten degrees 6e-5, of lights in a plane 0.
+pub(crate) fn mean_outer(directions: &[Vec3]) -> DMat3 {
+    let products = directions.iter().map(|l| outer(l.as_dvec3()));
+    products.fold(DMat3::ZERO, |sum, one| sum + one) * (1.0 / directions.len() as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
