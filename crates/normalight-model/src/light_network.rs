@@ -1,6 +1,6 @@
 use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
 use crate::layers::{Form, convolution, convolve_row, leaky};
-use crate::stage_layers::{Resize, StageLayers};
+use crate::stage_layers::{Resize, StageLayers, folded_stages, forward_stages, stage_row};
 use crate::{
     CellLight, LightArchitecture, LightBody, LightGenotype, ModelError, PlainLight, Relaxation,
     SearchSpace, Stage, StagedLight,
@@ -159,7 +159,7 @@ impl LightNetwork {
     pub fn features(&self, input: Tensor<4>) -> Tensor<4> {
         match &self.features {
             Features::Plain(plain) => plain.forward(input),
-            Features::Staged(stages) => run(stages, input),
+            Features::Staged(stages) => forward_stages(stages, input),
             Features::Cells(cells) => self.row(&cells.cells, convolve_row(&cells.stem, input)),
         }
     }
@@ -174,7 +174,7 @@ impl LightNetwork {
         let both = Tensor::cat(vec![own, fused], 3);
         let last = match &self.classifier {
             Classifier::Plain(plain) => plain.forward(both),
-            Classifier::Staged(stages) => run(stages, both),
+            Classifier::Staged(stages) => forward_stages(stages, both),
             Classifier::Cells(cells) => {
                 let row = self.row(&cells.cells, convolve_row(&cells.before, both));
                 convolve_row(&cells.after, row)
@@ -190,25 +190,18 @@ impl LightNetwork {
     pub fn folded(&self) -> Self {
         let fold = |cells: &[CellLayer]| cells.iter().map(CellLayer::folded).collect();
         let mut network = self.clone();
-        let fold_stages = |stages: &[StageLayers]| stages.iter().map(StageLayers::folded).collect();
         match &mut network.features {
             Features::Plain(_) => {}
             Features::Cells(features) => features.cells = fold(&features.cells),
-            Features::Staged(stages) => *stages = fold_stages(stages),
+            Features::Staged(stages) => *stages = folded_stages(stages),
         }
         match &mut network.classifier {
             Classifier::Plain(_) => {}
             Classifier::Cells(classifier) => classifier.cells = fold(&classifier.cells),
-            Classifier::Staged(stages) => *stages = fold_stages(stages),
+            Classifier::Staged(stages) => *stages = folded_stages(stages),
         }
         network
     }
-}
-
-fn run(stages: &[StageLayers], input: Tensor<4>) -> Tensor<4> {
-    stages
-        .iter()
-        .fold(input, |input, stage| stage.forward(input))
 }
 
 fn staged_layers(
@@ -217,21 +210,16 @@ fn staged_layers(
     form: Form,
     device: &Device,
 ) -> (Features, Classifier, usize, usize) {
-    let row = |mut width: usize, stages: &[Stage], first: (Resize, bool)| {
-        let layers = stages.iter().enumerate().map(|(place, stage)| {
-            let how = if place == 0 {
-                first
-            } else {
-                (Resize::Halve, false)
-            };
-            let from = std::mem::replace(&mut width, stage.width);
-            StageLayers::new(from, stage, how, form, device)
-        });
-        layers.collect::<Vec<_>>()
+    let row = |width: usize, stages: &[Stage], how: ([Resize; 2], bool)| {
+        stage_row(width, stages, how, form, device)
     };
-    let features = row(INPUT_CHANNELS, &staged.features, (Resize::Halve, true));
+    let features = row(INPUT_CHANNELS, &staged.features, ([Resize::Halve; 2], true));
     let both = 2 * staged.features.last().map_or(0, |stage| stage.width);
-    let classifier = row(both, &staged.classifier, (Resize::Keep, false));
+    let classifier = row(
+        both,
+        &staged.classifier,
+        ([Resize::Keep, Resize::Halve], false),
+    );
     (
         Features::Staged(features),
         Classifier::Staged(classifier),

@@ -1,4 +1,5 @@
 mod fused;
+mod pixel_branch;
 mod plain;
 mod staged;
 

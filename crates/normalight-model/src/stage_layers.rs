@@ -36,9 +36,38 @@ enum ToWidth {
     Normed(NormedConv),
 }
 
+/// Stages one after the other, on maps of `width` channels: what the first and what each of the others does to the size.
+/// `sees_input`: the maps come from outside.
+pub(crate) fn stage_row(
+    mut width: usize,
+    stages: &[Stage],
+    (resizes, sees_input): ([Resize; 2], bool),
+    form: Form,
+    device: &Device,
+) -> Vec<StageLayers> {
+    let layers = stages.iter().enumerate().map(|(place, stage)| {
+        let how = (resizes[usize::from(place > 0)], sees_input && place == 0);
+        let from = std::mem::replace(&mut width, stage.width);
+        StageLayers::new(from, stage, how, form, device)
+    });
+    layers.collect()
+}
+
+pub(crate) fn forward_stages<'a>(
+    stages: impl IntoIterator<Item = &'a StageLayers>,
+    input: Tensor<4>,
+) -> Tensor<4> {
+    let stages = stages.into_iter();
+    stages.fold(input, |input, stage| stage.forward(input))
+}
+
+pub(crate) fn folded_stages(stages: &[StageLayers]) -> Vec<StageLayers> {
+    stages.iter().map(StageLayers::folded).collect()
+}
+
 impl StageLayers {
     /// With random weights. `is_first`: the stage sees what comes from outside, whose signs a ReLU would take away.
-    pub(crate) fn new(
+    fn new(
         channels: usize,
         stage: &Stage,
         (resize, is_first): (Resize, bool),
@@ -68,7 +97,7 @@ impl StageLayers {
         }
     }
 
-    pub(crate) fn forward(&self, input: Tensor<4>) -> Tensor<4> {
+    fn forward(&self, input: Tensor<4>) -> Tensor<4> {
         let mut layers = self.layers.iter();
         let first = layers
             .next()
@@ -79,7 +108,7 @@ impl StageLayers {
         })
     }
 
-    pub(crate) fn folded(&self) -> Self {
+    fn folded(&self) -> Self {
         let layers = self.layers.iter().map(|layer| StageLayer {
             depthwise: layer.depthwise.clone(),
             to_width: match &layer.to_width {

@@ -1,7 +1,8 @@
 //! The plain network: 3x3 convolutions, perhaps with a branch that sees single pixels.
-use super::fused::{FusedFeatures, FusedPixels};
+use super::fused::FusedFeatures;
+use super::pixel_branch::{PixelBranch, output};
 use crate::PlainNormal;
-use crate::layers::{convolution, convolve, convolve_doubled, convolve_leaky, convolve_row};
+use crate::layers::{convolution, convolve_doubled, convolve_leaky, convolve_row};
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
 use burn::tensor::{Device, Tensor};
@@ -18,15 +19,6 @@ pub(super) struct PlainBody {
     head: Conv2d,
     pixels: Option<PixelBranch>,
     output: Conv2d,
-}
-
-/// Layers on colour and light of every pixel by itself, which keep the detail that strides lose.
-#[derive(Module, Debug)]
-struct PixelBranch {
-    /// 1x1, on every image.
-    layers: Vec<Conv2d>,
-    /// On the head beside maximum and mean over the images.
-    join: Conv2d,
 }
 
 impl PlainBody {
@@ -46,12 +38,9 @@ impl PlainBody {
             up: vec![conv([c, b], 1), conv([b, b], 1)],
             fused: vec![conv([b, b], 1), conv([b, b], 1)],
             head: conv([b, plain.head], 1),
-            pixels: (plain.pixel_branch > 0).then(|| PixelBranch {
-                layers: vec![
-                    convolution([channels, plain.pixel_branch], 1, 1, device),
-                    convolution([plain.pixel_branch; 2], 1, 1, device),
-                ],
-                join: conv([joined, plain.head], 1),
+            pixels: (plain.pixel_branch > 0).then(|| {
+                let layers = (plain.pixel_branch, 2);
+                PixelBranch::new(channels, layers, plain.head, device)
             }),
             output: conv([joined, 3], 1),
         }
@@ -69,10 +58,8 @@ impl PlainBody {
 
     pub(super) fn fuse(&self, input: Tensor<4>, stacks: usize) -> FusedFeatures {
         let images = input.dims()[0] / stacks;
-        let pixels = self
-            .pixels
-            .as_ref()
-            .map(|branch| FusedPixels::of(convolve_row(&branch.layers, input.clone()), stacks));
+        let pixels = self.pixels.as_ref();
+        let pixels = pixels.map(|branch| branch.fuse(input.clone(), stacks));
         FusedFeatures {
             sum: None,
             features: max_over_images(self.features(input), stacks),
@@ -83,13 +70,8 @@ impl PlainBody {
 
     /// Normals before they get unit length.
     pub(super) fn regress(&self, fused: FusedFeatures) -> Tensor<4> {
-        let features = convolve_row(&self.fused, fused.features);
+        let features = convolve_row(&self.fused, fused.features.clone());
         let head = convolve_doubled(&self.head, features);
-        let (Some(branch), Some(pixels)) = (&self.pixels, fused.pixels) else {
-            return convolve(&self.output, head);
-        };
-        let beside = pixels.beside(fused.images);
-        let joined = convolve_leaky(&branch.join, beside(head));
-        convolve(&self.output, beside(joined))
+        output(self.pixels.as_ref(), &self.output, head, fused)
     }
 }

@@ -1,8 +1,9 @@
 //! The network of stages.
-use super::fused::{FusedFeatures, FusedPixels};
-use crate::layers::{Form, convolution, convolve, convolve_leaky, convolve_row};
-use crate::stage_layers::{Resize, StageLayers};
-use crate::{Meeting, StagedNormal};
+use super::fused::FusedFeatures;
+use super::pixel_branch::{PixelBranch, output};
+use crate::layers::{Form, convolution, convolve_leaky};
+use crate::stage_layers::{Resize, StageLayers, folded_stages, forward_stages, stage_row};
+use crate::{Meeting, Stage, StagedNormal};
 use burn::module::Module;
 use burn::nn::conv::Conv2d;
 use burn::tensor::{Device, Tensor};
@@ -16,58 +17,30 @@ pub(super) struct StagedBody {
     exchanges: Vec<Conv2d>,
     keeps_mean: bool,
     fused: Vec<StageLayers>,
-    pixels: Option<PixelLayers>,
+    pixels: Option<PixelBranch>,
     output: Conv2d,
-}
-
-#[derive(Module, Debug)]
-struct PixelLayers {
-    /// 1x1, on every image.
-    layers: Vec<Conv2d>,
-    /// On the last stage beside maximum and mean over the images.
-    join: Conv2d,
 }
 
 impl StagedBody {
     pub(super) fn new(staged: &StagedNormal, channels: usize, form: Form, device: &Device) -> Self {
-        let mut width = channels;
-        let mut build = |stages: &[crate::Stage], resize: [Resize; 2], is_input: bool| {
-            let layers = stages.iter().enumerate().map(|(place, stage)| {
-                let is_first = is_input && place == 0;
-                let resize = resize[usize::from(place > 0)];
-                let from = std::mem::replace(&mut width, stage.width);
-                StageLayers::new(from, stage, (resize, is_first), form, device)
-            });
-            layers.collect::<Vec<_>>()
+        let row = |width: usize, stages: &[Stage], how: ([Resize; 2], bool)| {
+            stage_row(width, stages, how, form, device)
         };
-        let down = build(&staged.down, [Resize::Keep, Resize::Halve], true);
-        let up = build(&staged.up, [Resize::Double; 2], false);
+        let down = row(
+            channels,
+            &staged.down,
+            ([Resize::Keep, Resize::Halve], true),
+        );
+        let last = staged.down.last().map_or(0, |stage| stage.width);
+        let up = row(last, &staged.up, ([Resize::Double; 2], false));
         let meeting = staged.meeting_width();
-        width = meeting * staged.meeting.widths();
-        let mut build = |stages: &[crate::Stage]| {
-            let layers = stages.iter().enumerate().map(|(place, stage)| {
-                let resize = if place == 0 {
-                    Resize::Keep
-                } else {
-                    Resize::Double
-                };
-                let from = std::mem::replace(&mut width, stage.width);
-                StageLayers::new(from, stage, (resize, false), form, device)
-            });
-            layers.collect::<Vec<_>>()
-        };
-        let fused = build(&staged.fused);
+        let kept = meeting * staged.meeting.widths();
+        let fused = row(kept, &staged.fused, ([Resize::Keep, Resize::Double], false));
         let head = staged.fused.last().map_or(0, |stage| stage.width);
         let joined = head + staged.pixels.map_or(0, |pixels| 2 * pixels.width);
         let pixels = staged.pixels.map(|pixels| {
-            let layer = |place: usize| {
-                let from = if place == 0 { channels } else { pixels.width };
-                convolution([from, pixels.width], 1, 1, device)
-            };
-            PixelLayers {
-                layers: (0..pixels.layers).map(layer).collect(),
-                join: convolution([joined, head], 3, 1, device),
-            }
+            let layers = (pixels.width, pixels.layers);
+            PixelBranch::new(channels, layers, head, device)
         });
         Self {
             down,
@@ -96,11 +69,8 @@ impl StagedBody {
     ) -> FusedFeatures {
         let images = input.dims()[0] / stacks;
         let is_last = before.len() == self.exchanges.len();
-        let pixels = self
-            .pixels
-            .as_ref()
-            .filter(|_| is_last)
-            .map(|branch| FusedPixels::of(convolve_row(&branch.layers, input.clone()), stacks));
+        let pixels = self.pixels.as_ref().filter(|_| is_last);
+        let pixels = pixels.map(|branch| branch.fuse(input.clone(), stacks));
         let features = self.features(input);
         let features = self.exchanges.iter().zip(before).fold(features, exchanged);
         let keeps_mean = self.keeps_mean || !is_last;
@@ -113,8 +83,7 @@ impl StagedBody {
     }
 
     fn features(&self, input: Tensor<4>) -> Tensor<4> {
-        let stages = self.down.iter().chain(&self.up);
-        stages.fold(input, |input, stage| stage.forward(input))
+        forward_stages(self.down.iter().chain(&self.up), input)
     }
 
     /// Normals before they get unit length.
@@ -123,22 +92,15 @@ impl StagedBody {
             true => Tensor::cat(vec![fused.features.clone(), fused.mean()], 3),
             false => fused.features.clone(),
         };
-        let stages = self.fused.iter();
-        let head = stages.fold(features, |input, stage| stage.forward(input));
-        let (Some(branch), Some(pixels)) = (&self.pixels, fused.pixels) else {
-            return convolve(&self.output, head);
-        };
-        let beside = pixels.beside(fused.images);
-        let joined = convolve_leaky(&branch.join, beside(head));
-        convolve(&self.output, beside(joined))
+        let head = forward_stages(&self.fused, features);
+        output(self.pixels.as_ref(), &self.output, head, fused)
     }
 
     pub(super) fn folded(&self) -> Self {
-        let fold = |stages: &[StageLayers]| stages.iter().map(StageLayers::folded).collect();
         Self {
-            down: fold(&self.down),
-            up: fold(&self.up),
-            fused: fold(&self.fused),
+            down: folded_stages(&self.down),
+            up: folded_stages(&self.up),
+            fused: folded_stages(&self.fused),
             ..self.clone()
         }
     }
