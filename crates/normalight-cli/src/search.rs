@@ -127,7 +127,7 @@ fn holds(path: &Path, content: &str) -> Result<bool> {
 }
 
 /// Puts the file in front of errors that do not name it.
-fn named<T>(path: &Path, result: Result<T, TrainError>) -> Result<T> {
+pub(crate) fn named<T>(path: &Path, result: Result<T, TrainError>) -> Result<T> {
     match result {
         Err(error @ TrainError::Run(RunError::File { .. } | RunError::Recipe { .. })) => {
             Err(error.into())

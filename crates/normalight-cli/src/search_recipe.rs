@@ -1,8 +1,8 @@
 //! Recipes of a search: presets inside the program, or a file.
-use anyhow::{Context, Result, bail};
-use normalight_run::RunError;
+use crate::search::named;
+use anyhow::{Result, bail};
 use normalight_search::{NetworkSearchRecipe, SearchRecipe};
-use normalight_train::{Network, TrainError, TrainRecipe};
+use normalight_train::{Network, TrainRecipe};
 use std::path::Path;
 
 /// Name, network and text of every preset.
@@ -51,13 +51,8 @@ pub(crate) fn read(name: &str, network: Network) -> Result<SearchRecipe> {
     if let Some((_, _, text)) = preset {
         return Ok(SearchRecipe::parse(name, text)?);
     }
-    let recipe = match SearchRecipe::read(Path::new(name)) {
-        // These name the file themselves.
-        Err(error @ TrainError::Run(RunError::File { .. } | RunError::Recipe { .. })) => {
-            return Err(error.into());
-        }
-        recipe => recipe.with_context(|| name.to_owned())?,
-    };
+    let path = Path::new(name);
+    let recipe = named(path, SearchRecipe::read(path))?;
     check_network(name, &recipe.training, network)?;
     Ok(recipe)
 }
@@ -76,12 +71,8 @@ pub(crate) fn read_networks(name: &str, network: Network) -> Result<Option<Netwo
     if !is_one {
         return Ok(None);
     }
-    let recipe = match NetworkSearchRecipe::read(Path::new(name)) {
-        Err(error @ TrainError::Run(RunError::File { .. } | RunError::Recipe { .. })) => {
-            return Err(error.into());
-        }
-        recipe => recipe.with_context(|| name.to_owned())?,
-    };
+    let path = Path::new(name);
+    let recipe = named(path, NetworkSearchRecipe::read(path))?;
     check_network(name, &recipe.training, network)?;
     Ok(Some(recipe))
 }

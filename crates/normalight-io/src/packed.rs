@@ -208,7 +208,7 @@ impl Opened {
 fn paged(files: &mut dyn LooseFiles, among: &[usize]) -> Result<Option<usize>, IoError> {
     let mut found = None;
     for (place, &index) in among.iter().enumerate() {
-        if !is_helper(&files.names()[index]) && is_tiff(&files.head(index, HEAD)?) {
+        if !is_helper(&files.names()[index]) && PagedTiff::may_be(&files.head(index, HEAD)?) {
             if found.is_some() {
                 return Ok(None);
             }
@@ -222,12 +222,6 @@ fn paged(files: &mut dyn LooseFiles, among: &[usize]) -> Result<Option<usize>, I
         })?;
     }
     Ok(found.filter(|_| is_paged))
-}
-
-fn is_tiff(head: &[u8]) -> bool {
-    [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"]
-        .iter()
-        .any(|mark| head.starts_with(*mark))
 }
 
 /// What stands before the paths of each archive's files, with a slash: its name, or the way to it
@@ -339,5 +333,5 @@ impl UnpackedFiles {
 /// `head` are its first bytes, 512 of them where it has as many.
 pub fn is_archive(name: &str, head: &[u8]) -> bool {
     let kind = ArchiveKind::of_content(head).or_else(|| ArchiveKind::of_extension(name));
-    (kind.is_some() || is_tiff(head)) && !is_helper(name)
+    (kind.is_some() || PagedTiff::may_be(head)) && !is_helper(name)
 }

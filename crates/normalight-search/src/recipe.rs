@@ -203,16 +203,7 @@ impl SearchRecipe {
     /// # Errors
     /// [`RunError::Recipe`], for a path that is not Unicode.
     pub fn to_toml(&self) -> Result<String, TrainError> {
-        let failed = |error: toml::ser::Error| {
-            TrainError::Run(RunError::Recipe {
-                file: "recipe.toml".into(),
-                reason: error.to_string(),
-            })
-        };
-        let mut table = toml::Table::try_from(&self.training).map_err(failed)?;
-        let search = toml::Value::try_from(&self.search).map_err(failed)?;
-        table.insert("search".into(), search);
-        toml::to_string(&table).map_err(failed)
+        to_toml(&self.training, &self.search)
     }
 
     /// Checks every number.
@@ -248,4 +239,24 @@ impl SearchRecipe {
         }
         Ok(())
     }
+}
+
+/// A training recipe with the settings of a search as its table `search`.
+///
+/// # Errors
+/// [`RunError::Recipe`], for a path that is not Unicode.
+pub(crate) fn to_toml(
+    training: &TrainRecipe,
+    search: &impl Serialize,
+) -> Result<String, TrainError> {
+    let failed = |error: toml::ser::Error| {
+        TrainError::Run(RunError::Recipe {
+            file: "recipe.toml".into(),
+            reason: error.to_string(),
+        })
+    };
+    let mut table = toml::Table::try_from(training).map_err(failed)?;
+    let search = toml::Value::try_from(search).map_err(failed)?;
+    table.insert("search".into(), search);
+    toml::to_string(&table).map_err(failed)
 }

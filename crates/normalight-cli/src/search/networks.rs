@@ -31,7 +31,7 @@ pub(super) fn run(args: &SearchArgs, mut recipe: NetworkSearchRecipe) -> Result<
             NetworkSearchEvent::Note(text) => watch.tell(&text),
             NetworkSearchEvent::Begins { name, recipe } => watch.begin(name, recipe),
             NetworkSearchEvent::Training(event) => watch.training(event),
-            NetworkSearchEvent::Ends { result, .. } => watch.end(result.degrees, ""),
+            NetworkSearchEvent::Ends(result) => watch.end(result.degrees, ""),
         }
         interrupt::answer()
     })?;

@@ -46,12 +46,7 @@ pub enum NetworkSearchEvent<'a> {
     /// Something happens during the training.
     Training(RunEvent),
     /// The training came to its end.
-    Ends {
-        /// Its round and number, from 1.
-        name: String,
-        /// What it gave.
-        result: &'a CandidateResult,
-    },
+    Ends(&'a CandidateResult),
 }
 
 /// What is told, and whether it goes on; not generic: else every program that searches would compile all of it again.
@@ -189,10 +184,7 @@ fn trained(
         }
         Err(error) => return Err(error),
     }
-    let _ = observe(NetworkSearchEvent::Ends {
-        name,
-        result: &candidate,
-    });
+    let _ = observe(NetworkSearchEvent::Ends(&candidate));
     Ok(Some(candidate))
 }
 

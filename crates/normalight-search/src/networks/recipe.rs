@@ -1,5 +1,6 @@
 //! The recipe of a search of whole networks.
 use super::space::{Candidate, NetworkSpace};
+use crate::recipe::to_toml;
 use normalight_run::{RunError, check, read_text};
 use normalight_synth::scrambled;
 use normalight_train::{Network, TrainError, TrainRecipe, read_table};
@@ -126,16 +127,7 @@ impl NetworkSearchRecipe {
     /// # Errors
     /// [`RunError::Recipe`], for a path that is not Unicode.
     pub fn to_toml(&self) -> Result<String, TrainError> {
-        let failed = |error: toml::ser::Error| {
-            TrainError::Run(RunError::Recipe {
-                file: "recipe.toml".into(),
-                reason: error.to_string(),
-            })
-        };
-        let mut table = toml::Table::try_from(&self.training).map_err(failed)?;
-        let search = toml::Value::try_from(&self.search).map_err(failed)?;
-        table.insert("search".into(), search);
-        toml::to_string(&table).map_err(failed)
+        to_toml(&self.training, &self.search)
     }
 
     /// Checks every number.

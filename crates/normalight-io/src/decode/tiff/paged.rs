@@ -39,6 +39,11 @@ impl PagedTiff {
         (pages.len() >= MIN_IMAGES).then_some(Self { bytes, pages })
     }
 
+    /// Whether a file that begins like this is a TIFF at all.
+    pub(crate) fn may_be(head: &[u8]) -> bool {
+        File::new(head).is_some()
+    }
+
     /// Whether some bytes are such a file.
     pub(crate) fn is_one(bytes: &[u8]) -> bool {
         File::new(bytes).is_some_and(|file| find(&file).len() >= MIN_IMAGES)
