@@ -40,7 +40,9 @@ impl Meaning {
         if samples < colours {
             return Err(source.damaged(format!("{samples} channels cannot be its colours")));
         }
-        let extra = page.all(tags::EXTRA_SAMPLES);
+        let mut extra = page.all(tags::EXTRA_SAMPLES);
+        // What is said of channels that are not there means nothing.
+        extra.truncate(samples - colours);
         if colours == 1 && samples > 2 && extra.len() + 1 < samples {
             let found = format!("{samples} channels that are said to be grey");
             return Err(source.unread(found, EXPORT));

@@ -63,6 +63,17 @@ fn the_preview_of_a_raw_file_is_never_taken() {
     }
 }
 
+/// Found by damage at random: the second channel, of one, was taken for transparency.
+#[test]
+fn kinds_of_channels_that_are_not_there_mean_nothing() {
+    for said in [vec![2], vec![0, 2], vec![0, 0, 1]] {
+        let tags = [bits(1, 8), short(262, 1), (338, 3, said)];
+        let found = decode("a.tif", &tiff(2, 1, &tags, &[5, 7])).unwrap();
+        assert_eq!(found.image.samples, Samples::U8(vec![5, 7]));
+        assert!(found.alpha.is_none());
+    }
+}
+
 #[test]
 fn other_refusals_name_what_was_found() {
     let method = |method| {
