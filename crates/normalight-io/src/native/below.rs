@@ -4,8 +4,8 @@ use crate::IoError;
 use crate::limits::MAX_FILES;
 use crate::plan::{is_helper, plan_stack};
 use normalight_core::MIN_IMAGES;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// How many folders down are looked at: projects of RTI programs need one or two.
 const DEEP: usize = 3;
@@ -26,8 +26,7 @@ pub(super) fn look_below(folder: &Path) -> Result<(), IoError> {
             if seen > MAX_FILES {
                 break;
             }
-            // A list there may be wrong: that is said when the folder is given.
-            let photographs = plan_stack(&files, None).map_or(0, |plan| plan.images.len());
+            let photographs = photographs(&files);
             if photographs > 0 {
                 let place = path.strip_prefix(folder).unwrap_or(&path);
                 below.push(format!("{photographs} in {}", place.display()));
@@ -55,30 +54,36 @@ pub(super) fn look_below(folder: &Path) -> Result<(), IoError> {
 
 /// The files in a folder without photographs and in the folders in it, where each of those holds one photograph: one
 /// folder for each light.
-pub(super) fn one_in_each(folder: &Path) -> std::io::Result<Option<Vec<PathBuf>>> {
-    let (names, folders) = entries(folder)?;
-    let photographs =
-        |names: &[String]| plan_stack(names, None).map_or(0, |plan| plan.images.len());
-    let folders: Vec<PathBuf> = folders
-        .into_iter()
+pub(super) fn one_in_each(
+    files: &[PathBuf],
+    folders: &[PathBuf],
+) -> io::Result<Option<Vec<PathBuf>>> {
+    let folders: Vec<&PathBuf> = folders
+        .iter()
         .filter(|path| !is_helper(&file_name(path)))
         .collect();
-    if photographs(&names) > 0 || folders.len() < MIN_IMAGES || folders.len() > MAX_FILES {
+    if folders.len() < MIN_IMAGES || folders.len() > MAX_FILES || photographs(files) > 0 {
         return Ok(None);
     }
-    let mut paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
+    let mut paths = files.to_vec();
     for below in folders {
-        let (names, _) = entries(&below)?;
-        if photographs(&names) != 1 {
+        let (files, _) = entries(below)?;
+        if photographs(&files) != 1 {
             return Ok(None);
         }
-        paths.extend(names.iter().map(|name| below.join(name)));
+        paths.extend(files);
     }
     Ok((paths.len() <= MAX_FILES).then_some(paths))
 }
 
-/// Names of the files in a folder, and paths of the folders; links to folders are not followed, which may be circles.
-fn entries(folder: &Path) -> std::io::Result<(Vec<String>, Vec<PathBuf>)> {
+/// How many of some files are photographs by their names. A list there may be wrong: that is said when the folder is given.
+fn photographs(files: &[PathBuf]) -> usize {
+    let names: Vec<String> = files.iter().map(|path| file_name(path)).collect();
+    plan_stack(&names, None).map_or(0, |plan| plan.images.len())
+}
+
+/// Paths of the files in a folder, and of the folders; links to folders are not followed, which may be circles.
+pub(super) fn entries(folder: &Path) -> io::Result<(Vec<PathBuf>, Vec<PathBuf>)> {
     let (mut files, mut folders) = (Vec::new(), Vec::new());
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
@@ -86,7 +91,7 @@ fn entries(folder: &Path) -> std::io::Result<(Vec<String>, Vec<PathBuf>)> {
         if entry.file_type()?.is_dir() {
             folders.push(path);
         } else if path.is_file() {
-            files.push(file_name(&path));
+            files.push(path);
         }
     }
     Ok((files, folders))

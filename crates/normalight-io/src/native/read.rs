@@ -1,4 +1,4 @@
-use super::below::one_in_each;
+use super::below::{entries, one_in_each};
 use super::disk::DiskFiles;
 use super::files::{display, file_name, read_error, read_file};
 use super::inside::read_folder_inside;
@@ -62,17 +62,12 @@ pub fn read_paths(paths: &[PathBuf], options: &ReadOptions) -> Result<StackInput
 }
 
 fn read_folder(folder: &Path, options: &ReadOptions) -> Result<StackInput, IoError> {
-    let mut paths = Vec::new();
-    for entry in fs::read_dir(folder).map_err(|reason| read_error(folder, reason))? {
-        let path = entry.map_err(|reason| read_error(folder, reason))?.path();
-        if path.is_file() {
-            paths.push(path);
-        }
-    }
-    options.limits.check_files(&display(folder), paths.len())?;
-    let below = one_in_each(folder).map_err(|reason| read_error(folder, reason))?;
+    let failed = |reason| read_error(folder, reason);
+    let (files, folders) = entries(folder).map_err(failed)?;
+    options.limits.check_files(&display(folder), files.len())?;
+    let below = one_in_each(&files, &folders).map_err(failed)?;
     let is_below = below.is_some();
-    paths = below.unwrap_or(paths);
+    let mut paths = below.unwrap_or(files);
     // The system hands names out in any order.
     paths.sort();
     let files = DiskFiles::of_folder(folder.to_owned(), paths, options.limits);

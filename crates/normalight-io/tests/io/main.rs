@@ -12,6 +12,7 @@ mod derived;
 mod diligent;
 mod files;
 mod folders;
+mod folders_below;
 mod given_lights;
 mod hostile;
 mod inputs;
