@@ -1,0 +1,143 @@
+"""A sweep and a search through train.smk."""
+
+import csv
+import hashlib
+import json
+import statistics
+
+from common import PROGRAM, Case, jobs, kill_all
+
+RECIPE = """network = "{network}"
+steps = {steps}
+size = {size}
+batch = 2
+images = [3, 4]
+validate_every = 20
+validation_objects = 1
+checkpoint_every = 5
+[optimiser]
+warm_up = 2
+"""
+SEARCH = """[search]
+space = "network"
+candidates = 2
+keep = [1]
+growth = 2
+[search.networks]
+widths = [8]
+sizes = [16]
+"""
+
+
+class Train(Case):
+    def setUp(self):
+        super().setUp()
+        self.runs = self.folder / "runs ü"
+        self.recipe("it's {}".format("normal"), "normal", 40)
+        self.config = {
+            "recipes": ["it's normal.toml"],
+            "seeds": [2, 1],
+            "runs": self.runs.name,
+            "program": PROGRAM,
+            "threads": 1,
+            "memory_gib": 1,
+            "retries": 0,
+        }
+
+    def recipe(self, name, network, steps, more=""):
+        size = 64 if network == "light" else 16
+        text = RECIPE.format(network=network, steps=steps, size=size)
+        (self.folder / f"{name}.toml").write_text(text + more, "utf-8")
+
+    def summary(self, run):
+        return json.loads((run / "summary.json").read_text("utf-8"))
+
+    def table(self, name):
+        with open(self.runs / name, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def same_as_plain(self, run, recipe, network="normal"):
+        """A run is, bit for bit, what the command makes of its recipe and seed."""
+        seed = self.summary(run)["seed"]
+        plain = self.folder / f"plain {recipe.stem} {seed}"
+        words = ["train", network, "--recipe", recipe, "--run", plain, "--seed", seed]
+        self.normalight(*words, "--device", "cpu", "--quiet")
+        for name in ("weights.safetensors", "recipe.toml"):
+            self.assertEqual((run / name).read_bytes(), (plain / name).read_bytes(), f"{run} {name}")
+        untimed = [
+            {key: value for key, value in self.summary(one).items() if not key.startswith("hours")}
+            for one in (run, plain)
+        ]
+        self.assertEqual(*untimed)
+
+    def test_a_sweep_is_its_plain_runs_and_is_done_once(self):
+        self.recipe("light", "light", 4)
+        self.config["recipes"].append("light.toml")
+        self.snakemake("train.smk", self.config)
+        for name, network in [("it's normal", "normal"), ("light", "light")]:
+            for seed in (1, 2):
+                self.same_as_plain(self.runs / name / f"seed-{seed}", self.folder / f"{name}.toml", network)
+        self.does_nothing("train.smk", self.config)
+        # The tables say what the runs do.
+        runs = [self.runs / "it's normal" / f"seed-{seed}" for seed in (1, 2)]
+        errors = [self.summary(run)["best"]["degrees"] for run in runs]
+        row = next(row for row in self.table("comparison.csv") if row["recipe"] == "it's normal")
+        self.assertAlmostEqual(float(row["mean"]), statistics.fmean(errors), places=4)
+        self.assertAlmostEqual(float(row["spread"]), statistics.stdev(errors), places=4)
+        self.assertEqual((row["runs"], row["finished"]), ("2", "2"))
+        self.assertEqual(int(row["best seed"]), 1 + errors.index(min(errors)))
+        weights = {row["weights_sha256"] for row in self.table("runs.csv")}
+        found = self.runs.glob("*/seed-*/weights.safetensors")
+        self.assertEqual(weights, {hashlib.sha256(path.read_bytes()).hexdigest() for path in found})
+        # A further seed leaves the others alone.
+        before = {run: (run / "summary.json").stat().st_mtime_ns for run in runs}
+        self.config["seeds"].append(3)
+        self.snakemake("train.smk", self.config)
+        self.assertEqual({run: (run / "summary.json").stat().st_mtime_ns for run in runs}, before)
+        self.assertEqual(len(self.table("runs.csv")), 6)
+
+    def test_what_was_killed_goes_on_from_its_checkpoint(self):
+        self.config["seeds"] = [1]
+        run = self.runs / "it's normal/seed-1"
+        # First a job, then the engine with its job.
+        running = self.start("train.smk", self.config)
+        self.wait_until((run / "checkpoint.safetensors").is_file)
+        for job in jobs(running, "train"):
+            job.kill()
+        self.ended(running, code=1)
+        self.assertEqual(self.summary(run)["state"], "running")
+        self.assertEqual([row["state"] for row in self.table("runs.csv")], ["running"])
+        before = (run / "checkpoint.safetensors").stat().st_mtime_ns
+        running = self.start("train.smk", self.config)
+        self.wait_until(lambda: (run / "checkpoint.safetensors").stat().st_mtime_ns != before)
+        kill_all(running)
+        self.assertEqual(self.summary(run)["state"], "running")
+        self.snakemake("train.smk", self.config)
+        self.assertIn("continue", (run / "log.txt").read_text("utf-8"))
+        self.same_as_plain(run, self.folder / "it's normal.toml")
+        self.does_nothing("train.smk", self.config)
+
+    def test_networks_of_a_search_are_trained_with_all_seeds(self):
+        self.recipe("small", "normal", 2, SEARCH)
+        self.config["recipes"] = []
+        self.config["searches"] = [{"network": "normal", "recipe": "small.toml"}]
+        self.snakemake("train.smk", self.config)
+        search = self.runs / "search-normal-small"
+        fronts = sorted(search.glob("front-*.toml"))
+        self.assertTrue(fronts)
+        for front in fronts:
+            for seed in (1, 2):
+                self.same_as_plain(search / front.stem / f"seed-{seed}", front)
+        self.assertEqual(len(self.table("comparison.csv")), len(fronts))
+        self.does_nothing("train.smk", self.config)
+
+    def test_what_makes_no_sense_is_refused_in_words(self):
+        for change, words in [
+            ({"recipes": []}, "nothing to train"),
+            ({"recipes": ["a/x.toml", "b/x.toml"]}, "two runs would be called 'x'"),
+            ({"seeds": "1"}, "a list of numbers expected"),
+            ({"searches": ["networks"]}, "network and recipe expected"),
+        ]:
+            with self.subTest(words):
+                said = self.snakemake("train.smk", {**self.config, **change}, code=1)
+                self.assertIn(words, said)
