@@ -27,6 +27,7 @@ class Estimate(Case):
     def plain(self, code=0):
         """The same tree by the command alone."""
         out = self.folder / "plain"
+        shutil.rmtree(out, ignore_errors=True)
         self.normalight("batch", self.captures.name, "--out", out, "--", *SETTINGS, code=code)
         return out
 
@@ -57,7 +58,6 @@ class Estimate(Case):
         self.assertLess(len(self.made()), len(NAMES))
         # The page of what is there was made all the same.
         self.assertTrue((self.results / "index.html").is_file())
-        self.results.joinpath("plain").exists() and shutil.rmtree(self.results / "plain")
         running = self.start("estimate.smk", self.config)
         self.wait_until(lambda: jobs(running, "estimate"))
         kill_all(running)
@@ -76,8 +76,7 @@ class Estimate(Case):
         self.assertIn("Trying to restart", said)
         self.same_results(self.plain(code=1), self.results)
         self.assertIn("bad", (self.results / "index.html").read_text("utf-8"))
-        # Failed is not finished; without it all is well.
-        self.snakemake("estimate.smk", self.config, code=1)
+        # Failed is not finished: the next call tries again.
         shutil.rmtree(bad)
         self.snakemake("estimate.smk", self.config)
         self.same_results(self.plain(), self.results)
@@ -85,10 +84,7 @@ class Estimate(Case):
     def test_what_makes_no_sense_is_refused_in_words(self):
         for change, words in [
             ({"captures": "nowhere"}, "no folder of that name"),
-            ({"captures": None}, "captures is not set"),
             ({"results": "re{sults}"}, "a name without '{' expected"),
-            ({"shards": 0}, "a whole number from 1 on expected"),
-            ({"settings": "--quality fast"}, "a list of arguments expected"),
         ]:
             with self.subTest(words):
                 said = self.snakemake("estimate.smk", {**self.config, **change}, code=1)

@@ -33,7 +33,7 @@ class Train(Case):
     def setUp(self):
         super().setUp()
         self.runs = self.folder / "runs ü"
-        self.recipe("it's {}".format("normal"), "normal", 40)
+        self.recipe("it's normal", "normal", 40)
         self.config = {
             "recipes": ["it's normal.toml"],
             "seeds": [2, 1],
@@ -61,7 +61,7 @@ class Train(Case):
         seed = self.summary(run)["seed"]
         plain = self.folder / f"plain {recipe.stem} {seed}"
         words = ["train", network, "--recipe", recipe, "--run", plain, "--seed", seed]
-        self.normalight(*words, "--device", "cpu", "--quiet")
+        self.normalight(*words, "--threads", 1, "--device", "cpu", "--quiet")
         for name in ("weights.safetensors", "recipe.toml"):
             self.assertEqual((run / name).read_bytes(), (plain / name).read_bytes(), f"{run} {name}")
         untimed = [
@@ -135,8 +135,6 @@ class Train(Case):
         for change, words in [
             ({"recipes": []}, "nothing to train"),
             ({"recipes": ["a/x.toml", "b/x.toml"]}, "two runs would be called 'x'"),
-            ({"seeds": "1"}, "a list of numbers expected"),
-            ({"searches": ["networks"]}, "network and recipe expected"),
         ]:
             with self.subTest(words):
                 said = self.snakemake("train.smk", {**self.config, **change}, code=1)
