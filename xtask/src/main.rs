@@ -3,6 +3,7 @@
 //! `cargo xtask demo` builds everything and serves the page; `cargo xtask test` runs every test.
 //! Both fetch what is missing first, and name the exact command where they may not install.
 
+mod engine;
 mod fresh;
 mod fuzz;
 mod node;
@@ -65,6 +66,8 @@ enum Task {
         #[arg(long, value_name = "TARGET")]
         only: Vec<String>,
     },
+    /// Run the workflow of captures on a Slurm of two nodes that is started on this machine, as root.
+    Slurm,
     /// Build the WebAssembly module and its JavaScript into web/wasm, and renew the package's generated types.
     Wasm,
 }
@@ -98,6 +101,7 @@ fn perform(arguments: Arguments) -> Result<()> {
             steps::run(&workspace, &steps::chosen(&only, &skip), installing)
         }
         Task::Fuzz { seconds, only } => fuzz::run(&workspace, seconds, &only, installing),
+        Task::Slurm => engine::slurm(&workspace, installing),
         Task::Wasm => {
             steps::run(&workspace, &steps::WASM, installing)?;
             types::renew(&workspace)

@@ -6,6 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
+use crate::engine::Engine;
 use crate::node::Node;
 use crate::packages::{Installing, Packages};
 use crate::run;
@@ -24,6 +25,7 @@ pub struct Tools<'a> {
     software_gpu: OnceCell<bool>,
     typos: OnceCell<PathBuf>,
     cargo_deny: OnceCell<PathBuf>,
+    engine: OnceCell<Engine>,
 }
 
 impl<'a> Tools<'a> {
@@ -39,6 +41,7 @@ impl<'a> Tools<'a> {
             software_gpu: OnceCell::new(),
             typos: OnceCell::new(),
             cargo_deny: OnceCell::new(),
+            engine: OnceCell::new(),
         }
     }
 
@@ -76,6 +79,13 @@ impl<'a> Tools<'a> {
     pub fn cargo_deny(&self) -> Result<&PathBuf> {
         once(&self.cargo_deny, || {
             CARGO_DENY.find(self.workspace, &self.packages)
+        })
+    }
+
+    /// What runs the workflows.
+    pub fn engine(&self) -> Result<&Engine> {
+        once(&self.engine, || {
+            Engine::find(self.workspace, &self.packages)
         })
     }
 

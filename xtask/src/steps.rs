@@ -34,6 +34,8 @@ pub enum Step {
     Build,
     /// The native tests.
     Rust,
+    /// Both workflows on this machine, disturbed and not.
+    Workflows,
     /// Lints of what runs in the browser.
     WasmClippy,
     /// The WebAssembly module.
@@ -126,6 +128,7 @@ fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
             Step::Rust => drop(tools.software_gpu()?),
             Step::Spelling => drop(tools.typos()?),
             Step::Deny => drop(tools.cargo_deny()?),
+            Step::Workflows => drop(tools.engine()?),
             Step::Docs | Step::Build | Step::Bindgen | Step::Types => {}
         }
     }
@@ -189,6 +192,7 @@ impl Step {
                 }
                 run::run(&mut command)
             }
+            Self::Workflows => tools.engine()?.test(workspace),
             Self::WasmClippy => tools.toolchain()?.clippy(workspace),
             Self::Wasm => tools.toolchain()?.build(workspace),
             Self::Bindgen => wasm::bindgen(workspace),
