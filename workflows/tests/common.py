@@ -22,6 +22,18 @@ PROGRAM = os.environ["NORMALIGHT_CLI"]
 # A shell, Snakemake's patterns and a table each take one of these for something else.
 NAMES = ["plain", 'it\'s "quoted" $HOME; {x}', "Ümläut 雪/nested \\ deep", "new\nline"]
 SETTINGS = ["--quality", "fast", "--device", "cpu"]
+# A training of seconds that needs no files.
+RECIPE = """network = "{network}"
+steps = {steps}
+size = {size}
+batch = 2
+images = [3, 4]
+validate_every = 20
+validation_objects = 1
+checkpoint_every = 5
+[optimiser]
+warm_up = 2
+"""
 # How long anything here may take: many times what it does.
 LONG = 120
 
@@ -76,6 +88,26 @@ class Case(unittest.TestCase):
             self.assertLess(time.monotonic(), end, "waited in vain")
             time.sleep(0.002)
 
+    def recipe(self, name, network, steps, more=""):
+        """Writes a recipe; its file."""
+        file = self.folder / f"{name}.toml"
+        text = RECIPE.format(network=network, steps=steps, size=64 if network == "light" else 16)
+        file.write_text(text + more, "utf-8")
+        return file
+
+    def same_training(self, run, recipe, network="normal"):
+        """A run is, bit for bit, what the command makes of its recipe and seed."""
+        seed = summary(run)["seed"]
+        plain = self.folder / f"plain {recipe.stem} {seed}"
+        words = ["train", network, "--recipe", recipe, "--run", plain, "--seed", seed]
+        self.normalight(*words, "--threads", 1, "--device", "cpu", "--quiet")
+        for name in ("weights.safetensors", "recipe.toml"):
+            self.assertEqual((run / name).read_bytes(), (plain / name).read_bytes(), f"{run} {name}")
+        untimed = [
+            {key: value for key, value in summary(one).items() if not key.startswith("hours")} for one in (run, plain)
+        ]
+        self.assertEqual(*untimed)
+
     def same_results(self, plain, ours):
         """Two outputs of a batch are equal but for times."""
         self.assertEqual(results(plain), results(ours))
@@ -108,6 +140,11 @@ def results(folder):
         else:
             found[name] = path.read_bytes()
     return found
+
+
+def summary(run):
+    """How a training stands."""
+    return json.loads((run / "summary.json").read_text("utf-8"))
 
 
 def timeless(value):

@@ -1,4 +1,4 @@
-"""A Slurm cluster of two nodes on this machine, and estimate.smk on it. Run by `cargo xtask slurm`, as root.
+"""A Slurm cluster of two nodes on this machine, and both workflows on it. Run by `cargo xtask slurm`, as root.
 
 Configuration, state and keys lie in a folder that goes at the end; a Slurm that is installed here is not touched.
 """
@@ -12,7 +12,7 @@ import subprocess
 import time
 import unittest
 
-from common import PROGRAM, SETTINGS, Case, make_captures
+from common import PROGRAM, SETTINGS, Case, make_captures, summary
 
 NODES = ["n1", "n2"]
 CONFIGURATION = """ClusterName=test
@@ -148,7 +148,7 @@ class Slurm(Case):
         """Jobs at work, by their nodes."""
         return {node: job for job, state, node, _ in self.cluster.jobs() if state == "RUNNING"}
 
-    def test_nothing_is_lost_on_a_cluster(self):
+    def test_captures_survive_a_cancelled_job_and_a_lost_daemon(self):
         captures, out = self.folder / "cap'tures ü", self.folder / "results"
         # So many, and in the best quality, that there is time to disturb.
         make_captures(captures, [f"it's {number}" for number in range(24)])
@@ -187,6 +187,34 @@ class Slurm(Case):
         self.same_results(plain, out)
         self.does_nothing("estimate.smk", config, profile="slurm", more=OPTIONS)
         print(f"jobs: {[job[:3] for job in jobs]}, restarts: {len(re.findall('Trying to restart', said))}")
+
+    def test_a_cancelled_training_goes_on_from_its_checkpoint(self):
+        recipe, runs = self.recipe("it's normal", "normal", 100), self.folder / "runs"
+        config = {
+            "recipes": [recipe.name],
+            "seeds": [1, 2, 3],
+            "runs": runs.name,
+            "program": PROGRAM,
+            "threads": 1,
+            "memory_gib": 1,
+            "minutes": 10,
+            "retries": 2,
+        }
+        engine = self.start("train.smk", config, profile="slurm", more=OPTIONS)
+        self.addCleanup(engine.kill)
+        folders = [runs / recipe.stem / f"seed-{seed}" for seed in config["seeds"]]
+        begun = lambda: [run for run in folders if (run / "checkpoint.safetensors").is_file()]
+        self.wait_until(begun)
+        # Whichever of the two it is: a job that has begun is the oldest.
+        subprocess.run(["scancel", min(self.running().values(), key=int)], check=True)
+        said = self.ended(engine, limit=400)
+        self.assertIn("Trying to restart", said)
+        self.assertEqual({node for _, _, node, _ in self.cluster.jobs()}, set(NODES))
+        self.assertTrue(any("continued" in (run / "log.txt").read_text("utf-8") for run in folders))
+        for run in folders:
+            self.assertEqual(summary(run)["state"], "finished")
+            self.same_training(run, recipe)
+        self.does_nothing("train.smk", config, profile="slurm", more=OPTIONS)
 
 
 if __name__ == "__main__":

@@ -2,22 +2,10 @@
 
 import csv
 import hashlib
-import json
 import statistics
 
-from common import PROGRAM, Case, jobs, kill_all
+from common import PROGRAM, Case, jobs, kill_all, summary
 
-RECIPE = """network = "{network}"
-steps = {steps}
-size = {size}
-batch = 2
-images = [3, 4]
-validate_every = 20
-validation_objects = 1
-checkpoint_every = 5
-[optimiser]
-warm_up = 2
-"""
 SEARCH = """[search]
 space = "network"
 candidates = 2
@@ -44,31 +32,9 @@ class Train(Case):
             "retries": 0,
         }
 
-    def recipe(self, name, network, steps, more=""):
-        size = 64 if network == "light" else 16
-        text = RECIPE.format(network=network, steps=steps, size=size)
-        (self.folder / f"{name}.toml").write_text(text + more, "utf-8")
-
-    def summary(self, run):
-        return json.loads((run / "summary.json").read_text("utf-8"))
-
     def table(self, name):
         with open(self.runs / name, newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
-
-    def same_as_plain(self, run, recipe, network="normal"):
-        """A run is, bit for bit, what the command makes of its recipe and seed."""
-        seed = self.summary(run)["seed"]
-        plain = self.folder / f"plain {recipe.stem} {seed}"
-        words = ["train", network, "--recipe", recipe, "--run", plain, "--seed", seed]
-        self.normalight(*words, "--threads", 1, "--device", "cpu", "--quiet")
-        for name in ("weights.safetensors", "recipe.toml"):
-            self.assertEqual((run / name).read_bytes(), (plain / name).read_bytes(), f"{run} {name}")
-        untimed = [
-            {key: value for key, value in self.summary(one).items() if not key.startswith("hours")}
-            for one in (run, plain)
-        ]
-        self.assertEqual(*untimed)
 
     def test_a_sweep_is_its_plain_runs_and_is_done_once(self):
         self.recipe("light", "light", 4)
@@ -76,11 +42,11 @@ class Train(Case):
         self.snakemake("train.smk", self.config)
         for name, network in [("it's normal", "normal"), ("light", "light")]:
             for seed in (1, 2):
-                self.same_as_plain(self.runs / name / f"seed-{seed}", self.folder / f"{name}.toml", network)
+                self.same_training(self.runs / name / f"seed-{seed}", self.folder / f"{name}.toml", network)
         self.does_nothing("train.smk", self.config)
         # The tables say what the runs do.
         runs = [self.runs / "it's normal" / f"seed-{seed}" for seed in (1, 2)]
-        errors = [self.summary(run)["best"]["degrees"] for run in runs]
+        errors = [summary(run)["best"]["degrees"] for run in runs]
         row = next(row for row in self.table("comparison.csv") if row["recipe"] == "it's normal")
         self.assertAlmostEqual(float(row["mean"]), statistics.fmean(errors), places=4)
         self.assertAlmostEqual(float(row["spread"]), statistics.stdev(errors), places=4)
@@ -105,16 +71,16 @@ class Train(Case):
         for job in jobs(running, "train"):
             job.kill()
         self.ended(running, code=1)
-        self.assertEqual(self.summary(run)["state"], "running")
+        self.assertEqual(summary(run)["state"], "running")
         self.assertEqual([row["state"] for row in self.table("runs.csv")], ["running"])
         before = (run / "checkpoint.safetensors").stat().st_mtime_ns
         running = self.start("train.smk", self.config)
         self.wait_until(lambda: (run / "checkpoint.safetensors").stat().st_mtime_ns != before)
         kill_all(running)
-        self.assertEqual(self.summary(run)["state"], "running")
+        self.assertEqual(summary(run)["state"], "running")
         self.snakemake("train.smk", self.config)
         self.assertIn("continue", (run / "log.txt").read_text("utf-8"))
-        self.same_as_plain(run, self.folder / "it's normal.toml")
+        self.same_training(run, self.folder / "it's normal.toml")
         self.does_nothing("train.smk", self.config)
 
     def test_networks_of_a_search_are_trained_with_all_seeds(self):
@@ -127,7 +93,7 @@ class Train(Case):
         self.assertTrue(fronts)
         for front in fronts:
             for seed in (1, 2):
-                self.same_as_plain(search / front.stem / f"seed-{seed}", front)
+                self.same_training(search / front.stem / f"seed-{seed}", front)
         self.assertEqual(len(self.table("comparison.csv")), len(fronts))
         self.does_nothing("train.smk", self.config)
 
