@@ -24,7 +24,8 @@ DONE = [f"{FLAGS}/shard-{number}-of-{SHARDS}.done" for number in range(1, SHARDS
 COLLECT = "{PROGRAM:q} batch --collect --out {RESULTS:q} --quiet"
 PROGRAM = text("program")
 # Rules run in the container by themselves, what follows an error does not.
-WITHIN = "apptainer exec {config[container]:q} " if config.get("container") else ""
+BINDS = workflow.deployment_settings.apptainer_args
+WITHIN = "apptainer exec {BINDS} {config[container]:q} " if config.get("container") else ""
 
 if not os.path.isdir(CAPTURES):
     raise WorkflowError(f"captures is {CAPTURES!r}: no folder of that name is here")
