@@ -2,6 +2,7 @@
 use crate::thumbnails::SHOWN;
 use crate::{BatchSummary, Outcome, Row};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use normalight_io::{PAGE_SCRIPT, PAGE_STYLE};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_encode};
 use std::path::Path;
 
@@ -9,7 +10,6 @@ use std::path::Path;
 pub(crate) const PAGE: &str = "index.html";
 
 const STYLE: &str = include_str!("page/page.css");
-const SCRIPT: &str = include_str!("page/page.js");
 
 /// What is written out in addresses: all that may mean something in one.
 const WRITTEN_OUT: &AsciiSet = &NON_ALPHANUMERIC
@@ -28,7 +28,7 @@ pub(crate) fn page(summary: &BatchSummary) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Normalight: " (rows.len()) " captures" }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(PAGE_STYLE)) (PreEscaped(STYLE)) }
             }
             body {
                 h1 { "Normalight: " (rows.len()) " captures" }
@@ -48,7 +48,7 @@ pub(crate) fn page(summary: &BatchSummary) -> String {
                         @for (index, one) in rows.iter().enumerate() { (row(index, one)) }
                     }
                 }
-                script { (PreEscaped(SCRIPT)) }
+                script { (PreEscaped(PAGE_SCRIPT)) }
             }
         }
     }

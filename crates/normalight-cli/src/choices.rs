@@ -2,11 +2,15 @@
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use normalight_core::Decoding;
+use normalight_evaluate::Method;
 use normalight_io::{ColorMode, MeshFileFormat, NormalFormat, Outside};
 use normalight_model::Quality;
 use normalight_search::Equal;
 use normalight_synth::BitDepth;
 use normalight_train::Network;
+use std::fmt;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
 
 /// Where to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -208,5 +212,64 @@ impl From<BitsChoice> for BitDepth {
             BitsChoice::Eight => Self::Eight,
             BitsChoice::Sixteen => Self::Sixteen,
         }
+    }
+}
+
+/// A method of `evaluate`, or all of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct MethodChoice(pub(crate) Option<Method>);
+
+impl ValueEnum for MethodChoice {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [MethodChoice; Method::ALL.len() + 1] = {
+            let mut all = [MethodChoice(None); Method::ALL.len() + 1];
+            let mut index = 0;
+            while index < Method::ALL.len() {
+                all[index] = MethodChoice(Some(Method::ALL[index]));
+                index += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(match self.0 {
+            Some(method) => PossibleValue::new(method.name()).help(method.title()),
+            None => PossibleValue::new("all"),
+        })
+    }
+}
+
+/// Photographs of an object that are left out: `bear:1-20`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct LeaveOut {
+    pub(crate) object: String,
+    /// Counted from 1.
+    pub(crate) photographs: RangeInclusive<usize>,
+}
+
+impl FromStr for LeaveOut {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parse = || {
+            let (object, range) = text.rsplit_once(':')?;
+            let (first, last) = range.split_once('-').unwrap_or((range, range));
+            let photographs = first.parse().ok()?..=last.parse().ok()?;
+            let fits = !object.is_empty() && !photographs.is_empty() && *photographs.start() > 0;
+            fits.then(|| Self {
+                object: object.to_owned(),
+                photographs,
+            })
+        };
+        parse().ok_or_else(|| "an object and its photographs are expected: bear:1-20".to_owned())
+    }
+}
+
+impl fmt::Display for LeaveOut {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (first, last) = (self.photographs.start(), self.photographs.end());
+        write!(formatter, "{}:{first}-{last}", self.object)
     }
 }

@@ -1,168 +1,174 @@
 //! `normalight evaluate`.
+mod benchmark;
+mod facts;
+mod objects;
+mod store;
+
 use crate::Outcome;
 use crate::args::EvaluateArgs;
 use crate::interrupt;
-use crate::progress::{ProgressObserver, Spinner};
-use crate::settings::{Estimation, describe};
-use crate::table::{Failure, Table};
-use crate::terminal::{note, print};
+use crate::progress;
+use crate::settings::Estimation;
+use crate::terminal::print;
 use anyhow::{Result, bail};
-use normalight_evaluate::{BenchmarkObject, Figures, LightsFrom, ObjectFigures, evaluate_object};
-use normalight_io::{OutputFolder, WeightHashes, list_diligent_objects, read_diligent_object};
-use serde::Serialize;
-use std::path::{Path, PathBuf};
+use benchmark::{Source, sources};
+use facts::Evaluation;
+use normalight_evaluate::{Disturbance, Method, Photographs, Report, Table, Trial};
+use normalight_io::OutputFolder;
+use objects::Work;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use store::Store;
 
-/// All figures, and what they were measured with.
-#[derive(Debug, Serialize)]
-struct Evaluation {
-    version: String,
-    /// Name of the benchmark's folder.
-    data: String,
-    /// Which lights the normals were estimated with, in words.
-    lights_from: &'static str,
-    device: String,
-    weights: WeightHashes,
-    /// Trainable parameters of the light and of the normal network.
-    parameters: [usize; 2],
-    settings: serde_json::Map<String, serde_json::Value>,
-    /// One for each number of images.
-    tables: Vec<Table>,
-}
-
-/// A table for each number of images, on the standard output and as JSON.
+/// A table for each method and number of images, on the standard output, as JSON and as a report.
 pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
     let json = args.json.as_deref().map(prepare_json).transpose()?;
-    let folders = list_diligent_objects(&args.folder)?;
+    let sources = sources(&args.folder)?;
+    for one in &args.leave_out {
+        if sources.iter().all(|source| source.name() != one.object) {
+            bail!(
+                "--leave-out {one}: {} has no such object",
+                args.folder.display()
+            );
+        }
+    }
+    let store = args.report.as_deref().map(Store::open).transpose()?;
     let estimation = Estimation::open(&args.estimation)?;
-    let mut evaluation = Evaluation {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        data: folder_name(&args.folder),
-        lights_from: if args.calibrated {
-            "the true lights (calibrated)"
-        } else {
-            "estimated from the photographs"
-        },
-        device: estimation.device.clone(),
-        weights: estimation.hashes(args.calibrated),
-        parameters: estimation.estimator.parameters(),
-        settings: describe(&args.estimation, &estimation.settings, args.calibrated),
-        tables: Vec::new(),
+    let methods = methods(args);
+    let mut evaluation = Evaluation::new(args, &methods, &estimation);
+    print(&evaluation.heading())?;
+    let choices = choices(args);
+    let bar = progress::bar(
+        (sources.len() * methods.len() * choices.len()) as u64,
+        "{msg:40} [{bar:30}] {pos}/{len}  {eta} left",
+        args.quiet,
+    );
+    let work = Work {
+        args,
+        estimation: &estimation,
+        methods: &methods,
+        choices: &choices,
+        store: store.as_ref(),
+        bar: &bar,
     };
-    print(&heading(&evaluation))?;
-    let counts = match args.images[..] {
-        [] => vec![None],
-        _ => args.images.iter().copied().map(Some).collect(),
-    };
-    for images in counts {
-        let Some(table) = measure(args, &estimation, &folders, images)? else {
-            return Ok(Outcome::Interrupted);
+    let trials = measure(&work, &sources);
+    bar.finish_and_clear();
+    let trials = in_order(trials?, &methods, &choices);
+    if interrupt::asked() {
+        return Ok(Outcome::Interrupted);
+    }
+    evaluation.tables = Table::all(&trials);
+    for table in &evaluation.tables {
+        let method = match methods.len() {
+            1 => String::new(),
+            _ => format!("{}, ", table.method.title()),
         };
-        let count = images.map_or("all images".to_owned(), |images| format!("{images} images"));
-        print(&format!("\n{count}\n{}", table.to_text()))?;
-        evaluation.tables.push(table);
+        print(&format!("\n{method}{}\n{}", table.title(), table.to_text()))?;
+    }
+    let mut bytes = serde_json::to_vec_pretty(&evaluation)?;
+    bytes.push(b'\n');
+    if let Some(store) = store {
+        let report = Report {
+            facts: evaluation.facts(),
+            pictures: store.all_pictures(&trials),
+            trials: trials.clone(),
+        };
+        store.write(&report, bytes.clone())?;
     }
     if let Some((folder, name)) = json {
-        let mut bytes = serde_json::to_vec_pretty(&evaluation)?;
-        bytes.push(b'\n');
         folder.write(&[(name, bytes)])?;
     }
-    let failed = evaluation
-        .tables
-        .iter()
-        .any(|table| !table.failures.is_empty());
-    Ok(if failed {
+    Ok(if trials.iter().any(|trial| trial.result.is_err()) {
         Outcome::PartlyFailed
     } else {
         Outcome::Done
     })
 }
 
-/// Evaluates every object; `None` when the user stopped it.
-fn measure(
-    args: &EvaluateArgs,
-    estimation: &Estimation,
-    folders: &[PathBuf],
-    images: Option<usize>,
-) -> Result<Option<Table>> {
-    let (mut objects, mut failures) = (Vec::new(), Vec::new());
-    for folder in folders {
-        let measured = measure_object(args, estimation, folder, images);
-        if interrupt::asked() {
-            return Ok(None);
-        }
-        match measured {
-            Ok(figures) => objects.push(figures),
-            Err(error) => {
-                let name = folder_name(folder);
-                let reason = format!("{error:#}");
-                note(&format!("error: {name}: {reason}"));
-                failures.push(Failure { name, reason });
+/// The methods that are asked for, each once.
+fn methods(args: &EvaluateArgs) -> Vec<Method> {
+    if args.calibrated {
+        return vec![Method::Calibrated];
+    }
+    let mut methods = Vec::new();
+    for choice in &args.methods {
+        let chosen = choice.0.map_or(Method::ALL.to_vec(), |method| vec![method]);
+        for method in chosen {
+            if !methods.contains(&method) {
+                methods.push(method);
             }
         }
     }
-    Ok(Some(Table {
-        images,
-        mean: Figures::mean(&objects),
-        objects,
-        failures,
-    }))
+    methods
 }
 
-fn measure_object(
-    args: &EvaluateArgs,
-    estimation: &Estimation,
-    folder: &Path,
-    images: Option<usize>,
-) -> Result<ObjectFigures> {
-    let spinner = Spinner::new(format!("reading {}", folder_name(folder)), args.quiet);
-    let read = read_diligent_object(folder, images)?;
-    drop(spinner);
-    let object = BenchmarkObject {
-        name: read.name,
-        stack: read.input.stack,
-        mask: read.input.mask,
-        lights: read.lights,
-        normals: read.normals,
+/// The choices of photographs that are asked for, the first one disturbed as well.
+fn choices(args: &EvaluateArgs) -> Vec<Photographs> {
+    let subsets: Vec<Option<u64>> = match args.subsets {
+        Some(subsets) => (0..subsets).map(Some).collect(),
+        None => vec![None],
     };
-    let lights = if args.calibrated {
-        LightsFrom::Truth
-    } else {
-        LightsFrom::Photographs
+    let counts: Vec<Option<usize>> = match args.images[..] {
+        [] => vec![None],
+        _ => args.images.iter().copied().map(Some).collect(),
     };
-    let mut observer = ProgressObserver::new(format!("{}: ", object.name), args.quiet);
-    let estimator = &estimation.estimator;
-    let settings = estimation.settings;
-    Ok(evaluate_object(
-        estimator,
-        &object,
-        lights,
-        settings,
-        &mut observer,
-    )?)
+    let choices = |images: Option<usize>, disturbance: Option<Disturbance>| {
+        let of_subset = move |&subset: &Option<u64>| Photographs {
+            images,
+            subset,
+            disturbance,
+        };
+        subsets.iter().map(of_subset).collect::<Vec<_>>()
+    };
+    let disturbed = args.disturb.iter().map(|&one| (counts[0], Some(one)));
+    let all = counts.iter().map(|&count| (count, None)).chain(disturbed);
+    all.flat_map(|(images, disturbance)| choices(images, disturbance))
+        .collect()
 }
 
-/// What the figures were measured with, for people.
-fn heading(evaluation: &Evaluation) -> String {
-    let hash = |hash: &Option<String>| match hash {
-        Some(hash) => hash.clone(),
-        None => "not used".to_owned(),
+/// Measures every object, some side by side.
+fn measure(work: &Work, sources: &[Source]) -> Result<Vec<Trial>> {
+    let next = AtomicUsize::new(0);
+    let one_after_another = || {
+        let mut measured = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(source) = sources.get(index) else {
+                return anyhow::Ok(measured);
+            };
+            measured.push((index, work.measure(source)?));
+        }
     };
-    let settings: Vec<String> = evaluation
-        .settings
-        .iter()
-        .map(|(name, value)| format!("{name} {value}").replace('"', ""))
-        .collect();
-    let [light, normal] = evaluation.parameters;
-    format!(
-        "normalight {}\ndata:           {}\nlights:         {}\ndevice:         {}\nlight weights:  {}\nnormal weights: {}\nparameters:     light network {light}, normal network {normal}\nsettings:       {}\nnormals and lights: mean error in degrees; <11.25, <22.5, <30: share of pixels under so many degrees\n",
-        evaluation.version,
-        evaluation.data,
-        evaluation.lights_from,
-        evaluation.device,
-        hash(&evaluation.weights.light),
-        hash(&evaluation.weights.normal),
-        settings.join(", "),
-    )
+    let jobs = work.args.jobs.get().min(sources.len());
+    let mut measured = std::thread::scope(|scope| -> Result<Vec<_>> {
+        let threads: Vec<_> = (0..jobs).map(|_| scope.spawn(one_after_another)).collect();
+        let mut all = Vec::new();
+        for thread in threads {
+            match thread.join() {
+                Ok(measured) => all.extend(measured?),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        Ok(all)
+    })?;
+    measured.sort_by_key(|(index, _)| *index);
+    Ok(measured
+        .into_iter()
+        .flat_map(|(_, trials)| trials)
+        .collect())
+}
+
+/// The trials by method, then by number of photographs, then by object: the order of the tables.
+fn in_order(mut trials: Vec<Trial>, methods: &[Method], choices: &[Photographs]) -> Vec<Trial> {
+    trials.sort_by_key(|trial| {
+        (
+            methods.iter().position(|method| *method == trial.method),
+            choices
+                .iter()
+                .position(|choice| *choice == trial.photographs),
+        )
+    });
+    trials
 }
 
 /// The last part of a path, whichever way it is written.

@@ -19,7 +19,6 @@ mod scenes;
 mod search;
 mod search_recipe;
 mod settings;
-mod table;
 mod terminal;
 mod train;
 

@@ -4,7 +4,6 @@ use crate::choices::word;
 use crate::device::{self, OpenDevice};
 use anyhow::Result;
 use normalight_core::RefitSettings;
-use normalight_io::WeightHashes;
 use normalight_io::read_named;
 use normalight_model::{EstimateSettings, Estimator, Weights, default_weights};
 use std::path::Path;
@@ -32,11 +31,6 @@ impl Estimation {
             },
             device: name,
         })
-    }
-
-    /// Hashes of the weights that are used.
-    pub(crate) fn hashes(&self, lights_given: bool) -> WeightHashes {
-        WeightHashes::new(self.estimator.weight_hashes(), lights_given)
     }
 }
 

@@ -12,4 +12,10 @@ pub enum EvaluateError {
     /// A truth that does not fit the photographs.
     #[error(transparent)]
     Core(#[from] CoreError),
+    /// A photograph that cannot be disturbed as asked.
+    #[error("a photograph cannot be disturbed: {0}")]
+    Disturbance(String),
+    /// A part of the report that cannot be made.
+    #[error("the report cannot be made: {0}")]
+    Report(String),
 }

@@ -5,14 +5,15 @@ use serde::{Deserialize, Serialize};
 pub struct Figures {
     /// Mean angle between estimated and true normals, in degrees.
     pub normal_degrees: f64,
+    /// Median of these angles, in degrees.
+    pub normal_median_degrees: f64,
     /// Share of pixels, 0..1, whose normal is less than 11.25 degrees off.
     pub under_11_25: f64,
     /// Share of pixels under 22.5 degrees.
     pub under_22_5: f64,
     /// Share of pixels under 30 degrees.
     pub under_30: f64,
-    /// Mean angle between estimated and true light directions, in degrees; `None` when the true
-    /// lights were given.
+    /// Mean angle between estimated and true light directions, in degrees; `None` when the true lights were given.
     pub light_degrees: Option<f64>,
     /// Scale-invariant relative error of the intensities; `None` when the true lights were given.
     pub intensity_error: Option<f64>,
@@ -29,30 +30,30 @@ pub struct ObjectFigures {
     pub images: usize,
     /// Number of pixels compared.
     pub pixels: usize,
+    /// Number of pixels of the object that were left out, since their true normal is not known.
+    pub without_truth: usize,
     /// Its errors and time.
     #[serde(flatten)]
     pub figures: Figures,
 }
 
 impl Figures {
-    /// The mean over objects, each counting the same; `None` without any.
-    pub fn mean(objects: &[ObjectFigures]) -> Option<Self> {
-        if objects.is_empty() {
+    /// The mean over several, each counting the same; `None` without any.
+    pub fn mean<'a>(all: impl IntoIterator<Item = &'a Self>) -> Option<Self> {
+        let all: Vec<&Self> = all.into_iter().collect();
+        if all.is_empty() {
             return None;
         }
         let mean = |value: fn(&Self) -> f64| {
-            let values = objects.iter().map(|object| value(&object.figures));
-            values.sum::<f64>() / objects.len() as f64
+            all.iter().map(|figures| value(figures)).sum::<f64>() / all.len() as f64
         };
         let known = |value: fn(&Self) -> Option<f64>| {
-            let values: Option<Vec<f64>> = objects
-                .iter()
-                .map(|object| value(&object.figures))
-                .collect();
+            let values: Option<Vec<f64>> = all.iter().map(|figures| value(figures)).collect();
             values.map(|values| values.iter().sum::<f64>() / values.len() as f64)
         };
         Some(Self {
             normal_degrees: mean(|figures| figures.normal_degrees),
+            normal_median_degrees: mean(|figures| figures.normal_median_degrees),
             under_11_25: mean(|figures| figures.under_11_25),
             under_22_5: mean(|figures| figures.under_22_5),
             under_30: mean(|figures| figures.under_30),
@@ -72,8 +73,10 @@ mod tests {
             name: "egg".to_owned(),
             images: 8,
             pixels: 100,
+            without_truth: 3,
             figures: Figures {
                 normal_degrees,
+                normal_median_degrees: normal_degrees / 2.0,
                 under_11_25: 0.5,
                 under_22_5: 0.75,
                 under_30: 1.0,
@@ -86,12 +89,15 @@ mod tests {
 
     #[test]
     fn every_object_counts_the_same() {
-        let mean = Figures::mean(&[object(4.0, Some(1.0)), object(8.0, Some(4.0))]).unwrap();
-        assert_eq!((mean.normal_degrees, mean.light_degrees), (6.0, Some(2.5)));
-        assert_eq!((mean.under_22_5, mean.seconds), (0.75, 2.0));
-        let given = Figures::mean(&[object(4.0, None)]).unwrap();
+        let mean = |objects: &[ObjectFigures]| Figures::mean(objects.iter().map(|o| &o.figures));
+        let two = [object(4.0, Some(1.0)), object(8.0, Some(4.0))];
+        let given = mean(&[object(4.0, None)]).unwrap();
         assert_eq!((given.light_degrees, given.intensity_error), (None, None));
-        assert_eq!(Figures::mean(&[]), None);
+        assert_eq!(mean(&[]), None);
+        let mean = mean(&two).unwrap();
+        assert_eq!((mean.normal_degrees, mean.light_degrees), (6.0, Some(2.5)));
+        assert_eq!(mean.normal_median_degrees, 3.0);
+        assert_eq!((mean.under_22_5, mean.seconds), (0.75, 2.0));
     }
 
     #[test]

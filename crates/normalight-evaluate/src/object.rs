@@ -1,9 +1,5 @@
-use crate::{EvaluateError, Figures, ObjectFigures};
-use normalight_core::{
-    ImageStack, Light, Mask, NormalMap, intensity_error, mean_light_error, normal_error,
-};
-use normalight_model::{EstimateInput, EstimateSettings, Estimator, Observer};
-use std::time::Instant;
+use crate::EvaluateError;
+use normalight_core::{ImageStack, Light, Mask, NormalMap, reduced};
 
 /// An object with the truth about it.
 #[derive(Debug, Clone)]
@@ -20,64 +16,47 @@ pub struct BenchmarkObject {
     pub normals: NormalMap,
 }
 
-/// Which lights the normals are estimated with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LightsFrom {
-    /// Estimated from the photographs, as users do it.
-    Photographs,
-    /// The true ones (calibrated photometric stereo): what is left is the normal network's error.
-    Truth,
-}
+impl BenchmarkObject {
+    /// The same object under some of its photographs.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Core`] for too few of them; an index without a photograph counts as none.
+    pub fn with_photographs(&self, indices: &[usize]) -> Result<Self, EvaluateError> {
+        let images = indices.iter().filter_map(|&at| self.stack.images().get(at));
+        let stack = ImageStack::new(images.cloned().collect())?;
+        let lights = indices.iter().filter_map(|&at| self.lights.get(at));
+        Ok(Self {
+            name: self.name.clone(),
+            stack,
+            mask: self.mask.clone(),
+            lights: lights.copied().collect(),
+            normals: self.normals.clone(),
+        })
+    }
 
-/// Runs the pipeline on an object, exactly as users run it, and compares with the truth.
-///
-/// # Errors
-/// [`EvaluateError::Model`] (cancelled by the observer, say) or [`EvaluateError::Core`] for a truth that
-/// does not fit the photographs.
-pub fn evaluate_object(
-    estimator: &Estimator,
-    object: &BenchmarkObject,
-    lights: LightsFrom,
-    settings: EstimateSettings,
-    observer: &mut impl Observer,
-) -> Result<ObjectFigures, EvaluateError> {
-    let given = match lights {
-        LightsFrom::Photographs => None,
-        LightsFrom::Truth => Some(object.lights.as_slice()),
-    };
-    let start = Instant::now();
-    let estimate = pollster::block_on(estimator.estimate(
-        EstimateInput {
-            stack: &object.stack,
-            mask: &object.mask,
-            lights: given,
-        },
-        settings,
-        observer,
-    ))?;
-    let seconds = start.elapsed().as_secs_f64();
-    let normals = normal_error(&estimate.normals, &object.normals, &object.mask)?;
-    let (light_degrees, intensity) = match lights {
-        LightsFrom::Truth => (None, None),
-        LightsFrom::Photographs => {
-            let angle = mean_light_error(&estimate.lights, &object.lights)?;
-            let intensity = intensity_error(&estimate.lights, &object.lights)?;
-            (Some(f64::from(angle).to_degrees()), Some(intensity.into()))
+    /// The smallest frame around the object, at most `side` pixels long; smaller objects stay as they are.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Core`]: those of [`reduced`].
+    pub fn reduced_to(&self, side: usize) -> Result<Self, EvaluateError> {
+        // An object without pixels is refused by what follows.
+        let Some(part) = self.mask.bounding_box() else {
+            return Ok(self.clone());
+        };
+        let part = part.grown(1, self.mask.width(), self.mask.height());
+        let longer = part.width.max(part.height);
+        if longer <= side {
+            return Ok(self.clone());
         }
-    };
-    let [under_11_25, under_22_5, under_30] = normals.shares.map(f64::from);
-    Ok(ObjectFigures {
-        name: object.name.clone(),
-        images: object.stack.len(),
-        pixels: normals.pixels,
-        figures: Figures {
-            normal_degrees: f64::from(normals.mean).to_degrees(),
-            under_11_25,
-            under_22_5,
-            under_30,
-            light_degrees,
-            intensity_error: intensity,
-            seconds,
-        },
-    })
+        let shorter = |length: usize| (length * side).div_ceil(longer);
+        let size = [part.width, part.height].map(shorter);
+        let small = reduced(&self.stack, &self.mask, &self.normals, part, size)?;
+        Ok(Self {
+            name: self.name.clone(),
+            stack: small.stack,
+            mask: small.mask,
+            lights: self.lights.clone(),
+            normals: small.normals,
+        })
+    }
 }

@@ -56,6 +56,7 @@ mod names;
 mod normal_file;
 mod notice;
 mod packed;
+mod page;
 mod photographs;
 mod plan;
 mod previews;
@@ -89,7 +90,7 @@ pub use input_plan::{
 pub use light_axes::{LightAxes, LightAxesError};
 pub use light_exports::{lights_csv, lights_lp};
 pub use light_file::GivenLights;
-pub use light_map::lights_svg;
+pub use light_map::{lights_compared_svg, lights_svg};
 pub use light_match::read_lights;
 pub use limits::{
     Limits, MAX_ARCHIVE_BYTES, MAX_ARCHIVE_FILES, MAX_ARCHIVE_RATIO, MAX_FILE_BYTES, MAX_FILES,
@@ -103,13 +104,14 @@ pub use names::NameMatch;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::{
     DiligentObject, ObjectToPublish, OutputFolder, PublishedEntry, PublishedObject, PublishedPart,
-    PublishedSet, PublishedSplit, PublishedWriter, list_diligent_objects, mesh_files,
+    PublishedSet, PublishedSplit, PublishedWriter, list_diligent_objects, lock_file, mesh_files,
     read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths,
     sweep_leftovers, write_files,
 };
 pub use normal_file::read_normals;
 pub use notice::Notice;
 pub use packed::{UnpackedFiles, is_archive};
+pub use page::{PAGE_SCRIPT, PAGE_STYLE};
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, content_decides, find_list, is_helper, plan_contents, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};

@@ -21,6 +21,11 @@ const GRID: &str = "#48515e";
 /// right, y up; each light is a point at (x, y) of its direction, its colour says its intensity
 /// relative to the mean.
 pub fn lights_svg(lights: &[Light]) -> Vec<u8> {
+    lights_compared_svg(lights, &[])
+}
+
+/// The same with true lights: from each light a line to the true one of the same image, a ring.
+pub fn lights_compared_svg(lights: &[Light], truth: &[Light]) -> Vec<u8> {
     let total: f32 = lights.iter().map(Light::mean_intensity).sum();
     let mean = f64::from(total / lights.len().max(1) as f32);
     let relative = |light: &Light| {
@@ -45,25 +50,57 @@ pub fn lights_svg(lights: &[Light]) -> Vec<u8> {
             direction.y,
             direction.z,
         ));
+        let (x, y) = place(light);
         let point = Circle::new()
-            .set("cx", rounded(CENTRE.0 + RADIUS * direction.x))
-            .set("cy", rounded(CENTRE.1 - RADIUS * direction.y))
+            .set("cx", x)
+            .set("cy", y)
             .set("r", 6)
             .set("fill", colour((value - low) / (high - low)))
             .add(title);
         points = points.add(point);
     }
-    let document = Document::new()
+    let mut document = Document::new()
         .set("viewBox", (0, 0, 520, 412))
         .set("width", 520)
         .set("height", 412)
         .set("font-family", "system-ui, sans-serif")
         .set("font-size", 13)
-        .add(disc())
-        .add(points)
-        .add(ring_labels());
-    let document = legend(document, low, high);
+        .add(disc());
+    if !truth.is_empty() {
+        document = document.add(errors(lights, truth));
+    }
+    let document = legend(document.add(points).add(ring_labels()), low, high);
     document.to_string().into_bytes()
+}
+
+/// Where a light stands in the picture.
+fn place(light: &Light) -> (f64, f64) {
+    let direction = light.direction.as_dvec3();
+    (
+        rounded(CENTRE.0 + RADIUS * direction.x),
+        rounded(CENTRE.1 - RADIUS * direction.y),
+    )
+}
+
+/// True lights as rings, with lines to what was taken for them.
+fn errors(lights: &[Light], truth: &[Light]) -> Group {
+    let group = Group::new()
+        .set("stroke", TEXT)
+        .set("stroke-width", 1.5)
+        .set("fill", "none");
+    lights
+        .iter()
+        .zip(truth)
+        .fold(group, |group, (light, truth)| {
+            let ((x1, y1), (x2, y2)) = (place(light), place(truth));
+            let line = Line::new()
+                .set("x1", x1)
+                .set("y1", y1)
+                .set("x2", x2)
+                .set("y2", y2);
+            let ring = Circle::new().set("cx", x2).set("cy", y2).set("r", 4);
+            group.add(line).add(ring)
+        })
 }
 
 /// The disc with circles at 30, 60 and 90 degrees from the view axis.

@@ -8,6 +8,7 @@ mod files;
 pub mod fuzzing;
 mod inside;
 mod intensities;
+mod lock;
 mod matlab;
 mod meshes;
 mod published;
@@ -17,6 +18,7 @@ mod write;
 pub use aside::sweep_leftovers;
 pub use diligent::{DiligentObject, list_diligent_objects, read_diligent_object};
 pub use files::read_named;
+pub use lock::lock_file;
 pub use meshes::{mesh_files, read_mesh_file};
 pub use published::{
     ObjectToPublish, PublishedEntry, PublishedObject, PublishedPart, PublishedSet, PublishedSplit,

@@ -1,8 +1,8 @@
 //! The folder of a run: one process at a time, files only when complete.
 use crate::difference::{Difference, differences};
 use crate::{RunError, RunSpec, Summary, checkpoint};
-use normalight_io::write_files;
-use std::fs::{File, OpenOptions, TryLockError};
+use normalight_io::{lock_file, write_files};
+use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -42,18 +42,11 @@ impl RunFolder {
         };
         std::fs::create_dir_all(path).map_err(failed)?;
         let file = path.join(LOCK);
-        let lock = File::create(&file).map_err(|reason| RunError::File { path: file, reason })?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(RunError::Locked {
-                    path: path.to_owned(),
-                });
-            }
-            // Some file systems of clusters know no locks.
-            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
-            Err(TryLockError::Error(source)) => return Err(failed(source)),
-        }
+        let Some(lock) = lock_file(&file)? else {
+            return Err(RunError::Locked {
+                path: path.to_owned(),
+            });
+        };
         Ok(Self {
             path: path.to_owned(),
             result: spec.result,

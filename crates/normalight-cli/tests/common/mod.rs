@@ -1,6 +1,8 @@
 //! A small rendered stack in files, and the command under test.
 #![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![allow(dead_code)]
+pub mod benchmark;
+
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, Rgb};
 use normalight_core::Samples;
 use normalight_synth::{BitDepth, Framing, Renderer, Sample, SceneRecipe};

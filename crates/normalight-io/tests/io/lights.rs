@@ -1,6 +1,6 @@
 //! Light files: ours, `.lp`, DiLiGenT's and UW's.
 use normalight_core::{Light, Vec3, angle_between};
-use normalight_io::{IoError, lights_csv, lights_lp, lights_svg, read_lights};
+use normalight_io::{IoError, lights_compared_svg, lights_csv, lights_lp, lights_svg, read_lights};
 
 fn three() -> (Vec<String>, Vec<Light>) {
     let names = ["a,\"b\".png", "spaced name 1.png", "c.png"].map(str::to_owned);
@@ -160,6 +160,11 @@ fn the_light_map_shows_every_light() {
     let svg = String::from_utf8(lights_svg(&lights)).unwrap();
     assert_eq!(svg.matches("<title>").count(), 3);
     assert!(!svg.contains("NaN"));
+    // With the truth, as many lines to it, from where the lights stand: here both are the same.
+    let compared = String::from_utf8(lights_compared_svg(&lights, &lights)).unwrap();
+    let count = |text: &str, part: &str| text.matches(part).count();
+    assert_eq!(count(&compared, "<circle"), count(&svg, "<circle") + 3);
+    assert_eq!(count(&compared, "<line"), count(&svg, "<line") + 3);
     // No lights, or lights without intensity, still make a picture.
     let dark = [Light::new(Vec3::Z, 0.0)];
     for lights in [&[][..], &dark[..]] {

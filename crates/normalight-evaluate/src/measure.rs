@@ -1,0 +1,95 @@
+use crate::{BenchmarkObject, EvaluateError, Figures, Method, ObjectFigures};
+use normalight_core::{
+    Light, NormalMap, intensity_error, least_squares_normals, mean_light_error, normal_error,
+    robust_normals, uncalibrated_factorisation,
+};
+use normalight_model::{EstimateInput, EstimateSettings, Estimator, Observer};
+use std::time::Instant;
+
+/// What a method found, and how far it is from the truth.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    /// The errors.
+    pub figures: ObjectFigures,
+    /// The normals that were found.
+    pub normals: NormalMap,
+    /// The lights that were found; `None` when the true ones were given.
+    pub lights: Option<Vec<Light>>,
+}
+
+/// Runs a method on an object, the networks exactly as users run them, and compares with the truth.
+///
+/// # Errors
+/// [`EvaluateError::Model`] (cancelled by the observer, say) or [`EvaluateError::Core`] for a truth that
+/// does not fit the photographs, or where a classical method has too few of them.
+pub fn evaluate_object(
+    estimator: &Estimator,
+    object: &BenchmarkObject,
+    method: Method,
+    settings: EstimateSettings,
+    observer: &mut impl Observer,
+) -> Result<Measured, EvaluateError> {
+    let BenchmarkObject {
+        stack,
+        mask,
+        lights,
+        ..
+    } = object;
+    let mut estimate = |given: Option<&[Light]>| {
+        let input = EstimateInput {
+            stack,
+            mask,
+            lights: given,
+        };
+        pollster::block_on(estimator.estimate(input, settings, observer))
+    };
+    let start = Instant::now();
+    let (normals, found) = match method {
+        Method::Uncalibrated => {
+            let estimate = estimate(None)?;
+            (estimate.normals, Some(estimate.lights))
+        }
+        Method::Calibrated => (estimate(Some(lights))?.normals, None),
+        Method::EstimatedLeastSquares => {
+            let found = estimate(None)?.lights;
+            (least_squares_normals(stack, mask, &found)?.0, Some(found))
+        }
+        Method::LeastSquares => (least_squares_normals(stack, mask, lights)?.0, None),
+        Method::Robust => (robust_normals(stack, mask, lights)?.0, None),
+        Method::Factorisation => {
+            let found = uncalibrated_factorisation(stack, mask)?;
+            (found.normals, Some(found.lights))
+        }
+    };
+    let seconds = start.elapsed().as_secs_f64();
+    let error = normal_error(&normals, &object.normals, mask)?;
+    let degrees = |radians: f32| f64::from(radians).to_degrees();
+    let (light_degrees, intensity_error) = match &found {
+        None => (None, None),
+        Some(found) => (
+            Some(degrees(mean_light_error(found, lights)?)),
+            Some(f64::from(intensity_error(found, lights)?)),
+        ),
+    };
+    let [under_11_25, under_22_5, under_30] = error.shares.map(f64::from);
+    Ok(Measured {
+        figures: ObjectFigures {
+            name: object.name.clone(),
+            images: stack.len(),
+            pixels: error.pixels,
+            without_truth: mask.count() - error.pixels,
+            figures: Figures {
+                normal_degrees: degrees(error.mean),
+                normal_median_degrees: degrees(error.median),
+                under_11_25,
+                under_22_5,
+                under_30,
+                light_degrees,
+                intensity_error,
+                seconds,
+            },
+        },
+        normals,
+        lights: found,
+    })
+}

@@ -1,0 +1,161 @@
+//! Errors against the number of photographs, as SVG.
+use super::rows::Quantity;
+use crate::published::PAPER_BY_IMAGES;
+use crate::{EvaluateError, Method, Table};
+use plotters::prelude::*;
+use plotters::style::register_font;
+use std::sync::OnceLock;
+
+const SIZE: (u32, u32) = (720, 420);
+/// Readable on white and on black pages alike.
+const TEXT: RGBColor = RGBColor(128, 136, 144);
+const GRID: RGBAColor = RGBAColor(128, 136, 144, 0.25);
+const FONT: &str = "sans-serif";
+
+/// The colour of a method's line.
+fn colour(method: Method) -> RGBColor {
+    match method {
+        Method::Uncalibrated => RGBColor(224, 122, 48),
+        Method::EstimatedLeastSquares => RGBColor(190, 100, 180),
+        Method::Factorisation => RGBColor(170, 145, 40),
+        Method::Calibrated => RGBColor(70, 140, 220),
+        Method::Robust => RGBColor(60, 165, 115),
+        Method::LeastSquares => RGBColor(120, 130, 230),
+    }
+}
+
+/// A line of a chart: its name, its colour, and (photographs, degrees).
+struct Line {
+    name: String,
+    colour: RGBColor,
+    points: Vec<(f64, f64)>,
+}
+
+/// The errors of each method over the number of photographs; `None` with fewer than two numbers.
+///
+/// # Errors
+/// [`EvaluateError::Report`] when it cannot be drawn.
+pub(super) fn by_images(
+    tables: &[Table],
+    quantity: Quantity,
+) -> Result<Option<String>, EvaluateError> {
+    let lines = lines(tables, quantity);
+    if lines.iter().all(|line| line.points.len() < 2) {
+        return Ok(None);
+    }
+    let failed = |error: Box<dyn std::error::Error>| EvaluateError::Report(error.to_string());
+    draw(lines, quantity).map(Some).map_err(failed)
+}
+
+fn lines(tables: &[Table], quantity: Quantity) -> Vec<Line> {
+    let mut lines: Vec<Line> = Vec::new();
+    for method in Method::ALL {
+        let mut points: Vec<(f64, f64)> = tables
+            .iter()
+            .filter(|table| table.method == method && table.disturbance.is_none())
+            .filter(|table| table.failures.is_empty())
+            .filter_map(|table| {
+                let images = table.objects.iter().map(|object| object.images).max()?;
+                let mean = table.mean.as_ref()?;
+                let degrees = match quantity {
+                    Quantity::Normals => mean.normal_degrees,
+                    Quantity::Lights => mean.light_degrees?,
+                };
+                Some((images as f64, degrees))
+            })
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup_by_key(|point| point.0);
+        if !points.is_empty() {
+            lines.push(Line {
+                name: method.title().to_owned(),
+                colour: colour(method),
+                points,
+            });
+        }
+    }
+    lines
+}
+
+/// The paper's figures are means of all ten objects of DiLiGenT.
+fn paper(quantity: Quantity) -> Line {
+    let point = |&(images, lights, normals): &(usize, f64, f64)| {
+        let degrees = match quantity {
+            Quantity::Normals => normals,
+            Quantity::Lights => lights,
+        };
+        (images as f64, degrees)
+    };
+    Line {
+        name: "The paper (ten objects, published)".to_owned(),
+        colour: TEXT,
+        points: PAPER_BY_IMAGES.iter().map(point).collect(),
+    }
+}
+
+fn draw(mut lines: Vec<Line>, quantity: Quantity) -> Result<String, Box<dyn std::error::Error>> {
+    static KNOWN: OnceLock<bool> = OnceLock::new();
+    if !KNOWN
+        .get_or_init(|| register_font(FONT, FontStyle::Normal, dejavu::sans::regular()).is_ok())
+    {
+        return Err("the font is not one".into());
+    }
+    let all = || lines.iter().flat_map(|line| line.points.iter().copied());
+    let few = all().map(|point| point.0).fold(f64::INFINITY, f64::min);
+    let many = all().map(|point| point.0).fold(0.0, f64::max);
+    let mut shown = paper(quantity);
+    shown.points.retain(|point| (few..=many).contains(&point.0));
+    lines.push(shown);
+    let most = lines
+        .iter()
+        .flat_map(|line| line.points.iter().map(|point| point.1))
+        .fold(0.0, f64::max);
+    let mut svg = String::new();
+    {
+        let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+        let words = |size: u32| (FONT, size).into_font().color(&TEXT);
+        let mut chart = ChartBuilder::on(&area)
+            .margin(14)
+            .x_label_area_size(46)
+            .y_label_area_size(58)
+            .build_cartesian_2d(few.log2()..many.log2(), 0.0..most * 1.05)?;
+        chart
+            .configure_mesh()
+            .x_desc("photographs")
+            .y_desc(match quantity {
+                Quantity::Normals => "error of the normals in degrees",
+                Quantity::Lights => "error of the lights in degrees",
+            })
+            .axis_desc_style(words(15))
+            .label_style(words(13))
+            .x_label_formatter(&|power| format!("{:.0}", power.exp2()))
+            .axis_style(TEXT)
+            .bold_line_style(GRID)
+            .light_line_style(TRANSPARENT)
+            .draw()?;
+        for Line {
+            name,
+            colour,
+            points,
+        } in lines
+        {
+            let points = points
+                .into_iter()
+                .map(|(images, error)| (images.log2(), error));
+            let style = colour.stroke_width(2);
+            chart
+                .draw_series(LineSeries::new(points, style).point_size(3))?
+                .label(name)
+                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .label_font(words(13))
+            .border_style(TRANSPARENT)
+            .background_style(TRANSPARENT)
+            .draw()?;
+        area.present()?;
+    }
+    Ok(svg)
+}

@@ -1,0 +1,227 @@
+//! The report as one page that needs no other file.
+use super::Report;
+use super::charts::by_images;
+use super::pictures::{MOST_DEGREES, MethodPictures, ObjectPictures, colour};
+use super::rows::{Grid, GridRow, Quantity, by_object, disturbed, summary};
+use crate::published::PUBLISHED;
+use crate::{EvaluateError, Table};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use normalight_io::{PAGE_SCRIPT, PAGE_STYLE};
+
+const STYLE: &str = include_str!("report.css");
+/// No request leaves the page, whatever stands in it.
+const POLICY: &str =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+
+/// The numbers of photographs, the largest first.
+pub(super) fn counts(tables: &[Table]) -> Vec<Option<usize>> {
+    let whole = tables.iter().filter(|table| table.disturbance.is_none());
+    let mut counts: Vec<Option<usize>> = whole.map(|table| table.images).collect();
+    // `None`, all of them, is the most.
+    counts.sort_by_key(|count| std::cmp::Reverse(count.unwrap_or(usize::MAX)));
+    counts.dedup();
+    counts
+}
+
+pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, EvaluateError> {
+    let charts = [
+        (
+            Quantity::Normals,
+            "Errors of the normals against the number of photographs",
+        ),
+        (
+            Quantity::Lights,
+            "Errors of the lights against the number of photographs",
+        ),
+    ];
+    let charts: Vec<(&str, String)> = charts
+        .into_iter()
+        .filter_map(|(quantity, title)| {
+            let chart = by_images(tables, quantity).transpose()?;
+            Some(chart.map(|svg| (title, svg)))
+        })
+        .collect::<Result<_, _>>()?;
+    let published = PUBLISHED.iter().filter(|one| {
+        let of_it = |row: &GridRow| row.published && row.cells[0] == one.name;
+        counts(tables).into_iter().any(|images| {
+            by_object(tables, images, Quantity::Normals)
+                .rows
+                .iter()
+                .any(of_it)
+        })
+    });
+    let published: Vec<_> = published.collect();
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { "Evaluation by Normalight" }
+                style { (PreEscaped(PAGE_STYLE)) (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    h1 { "Evaluation by Normalight" }
+                    dl {
+                        @for fact in &report.facts { div { dt { (fact.name) } dd { (fact.value) } } }
+                    }
+                    (grid(&summary(tables)))
+                    @for images in counts(tables) {
+                        (grid(&by_object(tables, images, Quantity::Normals)))
+                        (grid(&by_object(tables, images, Quantity::Lights)))
+                    }
+                    @for (title, svg) in &charts {
+                        section {
+                            h2 { (title) }
+                            // Its figures stand in the tables above.
+                            figure { img class="chart" src=(data("image/svg+xml", svg.as_bytes())) alt=(format!("{title}, a line for each method; the figures stand in the table of all methods")); }
+                        }
+                    }
+                    (grid(&disturbed(tables)))
+                    @if !report.pictures.is_empty() { (objects(&report.pictures)) }
+                    (failures(tables))
+                    @if !published.is_empty() {
+                        section {
+                            h2 { "Published figures" }
+                            ul.sources {
+                                @for one in &published {
+                                    li {
+                                        b { (one.name) }
+                                        @if let Some(size) = one.million_parameters { " (" (size) " million parameters)" }
+                                        ": " (one.source)
+                                        @if let Some([lights, intensities]) = one.light_means {
+                                            ". Over all ten objects: lights " (lights) " degrees, intensities " (intensities)
+                                        }
+                                    }
+                                }
+                            }
+                        }
+                    }
+                }
+                script { (PreEscaped(PAGE_SCRIPT)) }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+/// A table that sorts by its heads.
+fn grid(grid: &Grid) -> Markup {
+    html! {
+        @if !grid.rows.is_empty() {
+            section {
+                h2 { (grid.title) }
+                p { (grid.note) }
+                div.scroll tabindex="0" role="region" aria-label=(grid.title) {
+                    table {
+                        thead { tr { @for head in &grid.heads { th scope="col" { button type="button" { (head) } } } } }
+                        tbody {
+                            @for row in &grid.rows {
+                                tr class=[row.published.then_some("published")] {
+                                    th scope="row" data-key=(row.cells[0]) {
+                                        (row.cells[0])
+                                        @if row.published { " " small { "published" } }
+                                    }
+                                    @for cell in &row.cells[1..] { td data-key=(cell) { (cell) } }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Normals, errors and lights of every object.
+fn objects(pictures: &[ObjectPictures]) -> Markup {
+    html! {
+        section {
+            h2 { "Objects" }
+            p { "Normals: right is red, up is green, towards the camera is blue. Errors:" }
+            (scale())
+            @for object in pictures {
+                h3 { (object.object) }
+                div.pictures {
+                    figure {
+                        img src=(data("image/png", &object.truth)) alt=(format!("True normals of {}", object.object));
+                        figcaption { "True normals" }
+                    }
+                    @for method in &object.methods { (found(&object.object, method)) }
+                }
+            }
+        }
+    }
+}
+
+fn found(object: &str, pictures: &MethodPictures) -> Markup {
+    let title = pictures.method.title();
+    html! {
+        div.found {
+            h4 { (title) }
+            div {
+                figure {
+                    img src=(data("image/png", &pictures.normals)) alt=(format!("Normals of {object}: {title}"));
+                    figcaption { "Normals" }
+                }
+                figure {
+                    img src=(data("image/png", &pictures.errors)) alt=(format!("Errors of the normals of {object}: {title}"));
+                    figcaption { "Errors" }
+                }
+                @if !pictures.lights.is_empty() {
+                    figure {
+                        img.lights src=(data("image/svg+xml", &pictures.lights)) alt=(format!("Lights of {object}, found and true: {title}"));
+                        figcaption { "Lights, and lines to the true ones" }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What the colours of error maps mean.
+fn scale() -> Markup {
+    let stops: Vec<String> = (0..=8)
+        .map(|step| format!("#{:x}", colour(f64::from(step) / 8.0)))
+        .collect();
+    html! {
+        div.scale {
+            span style=(format!("background: linear-gradient(to right, {})", stops.join(", "))) {}
+            div { span { "0°" } span { (MOST_DEGREES / 2.0) "°" } span { (MOST_DEGREES) "° and more" } }
+        }
+    }
+}
+
+fn failures(tables: &[Table]) -> Markup {
+    let failed: Vec<String> = tables
+        .iter()
+        .flat_map(|table| {
+            table.failures.iter().map(move |failure| {
+                let method = table.method.title();
+                format!(
+                    "{}, {method}, {}: {}",
+                    failure.name,
+                    table.title(),
+                    failure.reason
+                )
+            })
+        })
+        .collect();
+    html! {
+        @if !failed.is_empty() {
+            section {
+                h2 { "What could not be measured" }
+                ul.failures { @for line in &failed { li { (line) } } }
+            }
+        }
+    }
+}
+
+/// A file as an address of its own.
+fn data(kind: &str, bytes: &[u8]) -> String {
+    format!("data:{kind};base64,{}", STANDARD.encode(bytes))
+}

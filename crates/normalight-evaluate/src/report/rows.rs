@@ -1,0 +1,300 @@
+//! What stands in the tables of all reports.
+use crate::published::{PUBLISHED, Published};
+use crate::table::known;
+use crate::{EvaluateError, Table, Trial};
+
+/// A table of words and figures, however it is written.
+pub(super) struct Grid {
+    pub(super) title: String,
+    /// What is to be known of it.
+    pub(super) note: String,
+    pub(super) heads: Vec<String>,
+    pub(super) rows: Vec<GridRow>,
+}
+
+pub(super) struct GridRow {
+    /// Figures that others published.
+    pub(super) published: bool,
+    /// The row's name, then as many cells as heads less one.
+    pub(super) cells: Vec<String>,
+}
+
+/// The names of all objects in the tables, in the order in which they come.
+pub(super) fn objects(tables: &[Table]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for table in tables {
+        let measured = table.objects.iter().map(|object| object.name.as_str());
+        let failed = table.failures.iter().map(|failure| failure.name.as_str());
+        for name in measured.chain(failed) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    names
+}
+
+/// Every method and number of photographs in one line each, over all objects.
+pub(super) fn summary(tables: &[Table]) -> Grid {
+    let heads = [
+        "Method",
+        "Photographs",
+        "Normals",
+        "Median",
+        "Under 11.25°",
+        "Under 22.5°",
+        "Under 30°",
+        "Lights",
+        "Intensities",
+        "Seconds",
+        "Objects",
+    ];
+    let share = |share: f64| format!("{:.1} %", 100.0 * share);
+    let with = |value: String, spread: Option<f64>| match spread {
+        Some(spread) => format!("{value} ± {spread:.2}"),
+        None => value,
+    };
+    let whole = tables.iter().filter(|table| table.disturbance.is_none());
+    let rows = whole.map(|table| {
+        let mut cells = vec![
+            table.method.title().to_owned(),
+            table
+                .images
+                .map_or("all".to_owned(), |images| images.to_string()),
+        ];
+        if let Some(mean) = &table.mean {
+            let spread = table.spread;
+            cells.extend([
+                with(
+                    format!("{:.2}", mean.normal_degrees),
+                    spread.map(|spread| spread.normal_degrees),
+                ),
+                format!("{:.2}", mean.normal_median_degrees),
+                share(mean.under_11_25),
+                share(mean.under_22_5),
+                share(mean.under_30),
+                with(
+                    known(mean.light_degrees, 2),
+                    spread.and_then(|spread| spread.light_degrees),
+                ),
+                known(mean.intensity_error, 3),
+                format!("{:.2}", mean.seconds),
+            ]);
+        }
+        cells.resize(heads.len() - 1, "-".to_owned());
+        cells.push(table.objects.len().to_string());
+        GridRow {
+            published: false,
+            cells,
+        }
+    });
+    Grid {
+        title: "All methods".to_owned(),
+        note: "Means over the objects, each counting the same: errors of normals and light directions in degrees, relative \
+               errors of intensities, shares of pixels whose normal is less than so many degrees off. ± is the standard \
+               deviation over random choices of photographs."
+            .to_owned(),
+        rows: rows.collect(),
+        heads: heads.map(str::to_owned).to_vec(),
+    }
+}
+
+/// Which errors a table of objects lists.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Normals,
+    Lights,
+}
+
+/// One number of photographs, a line for each method and a column for each object, published methods beside ours.
+pub(super) fn by_object(tables: &[Table], images: Option<usize>, quantity: Quantity) -> Grid {
+    let names = objects(tables);
+    let mut heads = vec!["Method".to_owned()];
+    heads.extend(names.iter().map(|&name| name.to_owned()));
+    heads.push("Mean".to_owned());
+    let of_it = || {
+        let all = tables.iter();
+        all.filter(|table| table.images == images && table.disturbance.is_none())
+    };
+    let mut rows: Vec<GridRow> = of_it()
+        .filter(|table| quantity == Quantity::Normals || !table.method.knows_lights())
+        .map(|table| {
+            let value = |figures: &crate::Figures| match quantity {
+                Quantity::Normals => Some(figures.normal_degrees),
+                Quantity::Lights => figures.light_degrees,
+            };
+            let measured = |name: &str| table.objects.iter().find(|object| object.name == name);
+            let mut cells = vec![table.method.title().to_owned()];
+            cells.extend(names.iter().map(|name| {
+                measured(name).map_or("failed".to_owned(), |object| {
+                    known(value(&object.figures), 2)
+                })
+            }));
+            // Over all of them or not at all: a mean of the easier ones would deceive.
+            let mean = table.mean.as_ref().filter(|_| table.failures.is_empty());
+            cells.push(known(mean.and_then(value), 2));
+            GridRow {
+                published: false,
+                cells,
+            }
+        })
+        .collect();
+    let most = of_it().flat_map(|table| table.objects.iter().map(|object| object.images));
+    // Published figures are of all 96 photographs.
+    if most.max() == Some(96) {
+        rows.extend(
+            PUBLISHED
+                .iter()
+                .filter_map(|one| published(one, &names, quantity)),
+        );
+    }
+    let (what, rest) = match quantity {
+        Quantity::Normals => ("normals", ""),
+        Quantity::Lights => ("light directions", ", methods that are not told them"),
+    };
+    Grid {
+        title: format!(
+            "Errors of the {what}, {}",
+            images.map_or("all photographs".to_owned(), |images| format!(
+                "{images} photographs"
+            ))
+        ),
+        note: format!(
+            "Mean angular errors in degrees{rest}. Published figures are of all 96 photographs, and their means here of the \
+             objects in this table."
+        ),
+        heads,
+        rows,
+    }
+}
+
+/// The line of a published method; none where it says nothing of these objects.
+fn published(one: &Published, names: &[&str], quantity: Quantity) -> Option<GridRow> {
+    let values = match quantity {
+        Quantity::Normals => one.normals,
+        Quantity::Lights => one.lights,
+    };
+    let figures = names.iter().map(|name| Published::of(values, name));
+    let mut cells = vec![one.name.to_owned()];
+    cells.extend(figures.map(|figure| known(figure, 2)));
+    let mean = Published::mean(values, names.iter().copied());
+    cells.push(known(mean, 2));
+    cells[1..]
+        .iter()
+        .any(|cell| cell != "-")
+        .then_some(GridRow {
+            published: true,
+            cells,
+        })
+}
+
+/// What disturbed photographs cost.
+pub(super) fn disturbed(tables: &[Table]) -> Grid {
+    let heads = [
+        "Photographs",
+        "Method",
+        "Normals",
+        "Normals, more than undisturbed",
+        "Lights",
+        "Lights, more than undisturbed",
+    ];
+    let more = |value: Option<f64>, before: Option<f64>| {
+        let difference = value.zip(before).map(|(value, before)| value - before);
+        difference.map_or("-".to_owned(), |difference| format!("{difference:+.2}"))
+    };
+    let rows = tables.iter().filter_map(|table| {
+        let words = table.disturbance?.words();
+        let before = tables.iter().find(|one| {
+            (one.method, one.images, one.disturbance) == (table.method, table.images, None)
+        });
+        // Means of other objects would say nothing of the disturbance.
+        let whole = |table: &Table| table.mean.filter(|_| table.failures.is_empty());
+        let (mean, before) = (whole(table), before.and_then(whole));
+        let normals = mean.map(|mean| mean.normal_degrees);
+        let lights = mean.and_then(|mean| mean.light_degrees);
+        Some(GridRow {
+            published: false,
+            cells: vec![
+                words,
+                table.method.title().to_owned(),
+                known(normals, 2),
+                more(normals, before.map(|mean| mean.normal_degrees)),
+                known(lights, 2),
+                more(lights, before.and_then(|mean| mean.light_degrees)),
+            ],
+        })
+    });
+    Grid {
+        title: "Disturbed photographs".to_owned(),
+        note: "What goes wrong in practice, done to the photographs of the benchmark. Mean angular errors in degrees."
+            .to_owned(),
+        rows: rows.collect(),
+        heads: heads.map(str::to_owned).to_vec(),
+    }
+}
+
+/// Every trial in one line.
+pub(super) fn csv(trials: &[Trial]) -> Result<Vec<u8>, EvaluateError> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let failed = |error: csv::Error| EvaluateError::Report(error.to_string());
+    writer
+        .write_record([
+            "object",
+            "method",
+            "images_asked",
+            "subset",
+            "disturbance",
+            "images",
+            "pixels",
+            "without_truth",
+            "normal_degrees",
+            "normal_median_degrees",
+            "under_11_25",
+            "under_22_5",
+            "under_30",
+            "light_degrees",
+            "intensity_error",
+            "seconds",
+            "failure",
+        ])
+        .map_err(failed)?;
+    let number = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
+    // What follows says nothing, and would differ where figures come from files.
+    let real = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
+    for trial in trials {
+        let measured = trial.result.as_ref().ok();
+        let count = |value: fn(&crate::ObjectFigures) -> usize| {
+            number(measured.map(|object| value(object) as u64))
+        };
+        let figures = measured.map(|object| &object.figures);
+        let figure = |value: fn(&crate::Figures) -> f64| real(figures.map(value));
+        writer
+            .write_record([
+                trial.object.clone(),
+                trial.method.name().to_owned(),
+                number(trial.photographs.images.map(|images| images as u64)),
+                number(trial.photographs.subset),
+                trial
+                    .photographs
+                    .disturbance
+                    .map(|one| one.to_string())
+                    .unwrap_or_default(),
+                count(|object| object.images),
+                count(|object| object.pixels),
+                count(|object| object.without_truth),
+                figure(|figures| figures.normal_degrees),
+                figure(|figures| figures.normal_median_degrees),
+                figure(|figures| figures.under_11_25),
+                figure(|figures| figures.under_22_5),
+                figure(|figures| figures.under_30),
+                real(figures.and_then(|figures| figures.light_degrees)),
+                real(figures.and_then(|figures| figures.intensity_error)),
+                figure(|figures| figures.seconds),
+                trial.result.as_ref().err().cloned().unwrap_or_default(),
+            ])
+            .map_err(failed)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| EvaluateError::Report(error.to_string()))
+}
