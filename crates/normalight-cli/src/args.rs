@@ -10,7 +10,8 @@ mod train;
 
 pub(crate) use batch::BatchArgs;
 pub(crate) use bench::{
-    BenchArgs, BenchCommand, BenchOpsArgs, BenchRenderArgs, BenchSearchArgs, BenchTrainArgs,
+    BenchArgs, BenchBatchArgs, BenchCommand, BenchOpsArgs, BenchRenderArgs, BenchSearchArgs,
+    BenchTrainArgs,
 };
 pub(crate) use estimate::{EstimateArgs, EstimationArgs};
 pub(crate) use evaluate::EvaluateArgs;

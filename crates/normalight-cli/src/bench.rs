@@ -1,4 +1,5 @@
 //! `normalight bench`.
+mod batch;
 mod operation_times;
 mod render;
 mod search;
@@ -19,6 +20,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<Outcome> {
         BenchCommand::Train(args) => train::run(args),
         BenchCommand::Search(args) => search::run(args),
         BenchCommand::Ops(args) => operation_times::run(args),
+        BenchCommand::Batch(args) => batch::run(args),
     }
 }
 

@@ -106,3 +106,21 @@ fn what_makes_no_sense_is_said_before_anything_begins() {
         "{dry}"
     );
 }
+
+#[test]
+fn the_bench_counts_what_a_batch_does() {
+    let arguments = ["--captures", "2", "--images", "3", "--size", "32", "--json"];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_normalight"));
+    command.args(["bench", "batch"]).args(arguments);
+    command.args(["--", "--quality", "fast", "--device", "cpu"]);
+    let report: serde_json::Value = serde_json::from_str(&said(command)).unwrap();
+    for (case, jobs) in report["cases"].as_array().unwrap().iter().zip([1, 2]) {
+        assert_eq!(case["jobs"], jobs);
+        let seconds = case["seconds"].as_f64().unwrap();
+        let an_hour = case["captures_per_hour"].as_f64().unwrap();
+        assert!((an_hour * seconds - 2.0 * 3600.0).abs() < 1e-6 * 7200.0);
+    }
+    // Finding that all is done takes less than doing it.
+    let unchanged = report["unchanged_seconds"].as_f64().unwrap();
+    assert!(unchanged < report["plain_seconds"].as_f64().unwrap());
+}

@@ -79,7 +79,7 @@ fn every_method_in_one_report() {
     );
     // Of each object the truth, and of six methods normals and errors.
     assert_eq!(page.matches("data:image/png").count(), 2 * (1 + 6 * 2));
-    // Lights of the three methods that find them; two charts.
+    // The light maps of the three methods that find lights; two charts.
     assert_eq!(page.matches("data:image/svg").count(), 2 * 3 + 2);
     let rows = std::fs::read_to_string(out.join("trials.csv")).unwrap();
     assert_eq!(rows.lines().count(), 1 + 2 * 12);

@@ -32,6 +32,29 @@ pub(crate) enum BenchCommand {
     ///
     /// The file is a table for the `budget` of a search in time.
     Ops(BenchOpsArgs),
+    /// How many captures an hour a batch does with one and with two jobs, and what it adds to each.
+    ///
+    /// The captures are rendered; each is estimated by itself first.
+    Batch(BenchBatchArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchBatchArgs {
+    /// Captures.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) captures: u32,
+    /// Photographs of each.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(3..=1024))]
+    pub(crate) images: u32,
+    /// Side of the photographs in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 192, value_parser = clap::value_parser!(u32).range(16..=2048))]
+    pub(crate) size: u32,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Settings of `normalight estimate` for all captures, after `--`.
+    #[arg(last = true, value_name = "SETTINGS")]
+    pub(crate) settings: Vec<String>,
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,5 @@
 //! Errors against the number of photographs, as SVG.
-use super::rows::Quantity;
+use super::rows::{Quantity, shown};
 use crate::published::PAPER_BY_IMAGES;
 use crate::{EvaluateError, Method, Table};
 use plotters::prelude::*;
@@ -17,11 +17,18 @@ fn colour(method: Method) -> RGBColor {
     match method {
         Method::Uncalibrated => RGBColor(224, 122, 48),
         Method::EstimatedLeastSquares => RGBColor(190, 100, 180),
-        Method::Factorisation => RGBColor(170, 145, 40),
+        Method::Factorisation => RGBColor(205, 70, 95),
         Method::Calibrated => RGBColor(70, 140, 220),
         Method::Robust => RGBColor(60, 165, 115),
         Method::LeastSquares => RGBColor(120, 130, 230),
     }
+}
+
+/// A chart, and beside it, where no line hides it, what its lines mean.
+pub(super) struct Chart {
+    pub(super) svg: String,
+    /// Names of the lines and their colours.
+    pub(super) legend: Vec<(String, String)>,
 }
 
 /// A line of a chart: its name, its colour, and (photographs, degrees).
@@ -38,7 +45,7 @@ struct Line {
 pub(super) fn by_images(
     tables: &[Table],
     quantity: Quantity,
-) -> Result<Option<String>, EvaluateError> {
+) -> Result<Option<Chart>, EvaluateError> {
     let lines = lines(tables, quantity);
     if lines.iter().all(|line| line.points.len() < 2) {
         return Ok(None);
@@ -53,7 +60,7 @@ fn lines(tables: &[Table], quantity: Quantity) -> Vec<Line> {
         let mut points: Vec<(f64, f64)> = tables
             .iter()
             .filter(|table| table.method == method && table.disturbance.is_none())
-            .filter(|table| table.failures.is_empty())
+            .filter(|table| table.failures.is_empty() && shown(tables, table, quantity))
             .filter_map(|table| {
                 let images = table.objects.iter().map(|object| object.images).max()?;
                 let mean = table.mean.as_ref()?;
@@ -93,7 +100,7 @@ fn paper(quantity: Quantity) -> Line {
     }
 }
 
-fn draw(mut lines: Vec<Line>, quantity: Quantity) -> Result<String, Box<dyn std::error::Error>> {
+fn draw(mut lines: Vec<Line>, quantity: Quantity) -> Result<Chart, Box<dyn std::error::Error>> {
     static KNOWN: OnceLock<bool> = OnceLock::new();
     if !KNOWN
         .get_or_init(|| register_font(FONT, FontStyle::Normal, dejavu::sans::regular()).is_ok())
@@ -110,7 +117,7 @@ fn draw(mut lines: Vec<Line>, quantity: Quantity) -> Result<String, Box<dyn std:
         .iter()
         .flat_map(|line| line.points.iter().map(|point| point.1))
         .fold(0.0, f64::max);
-    let mut svg = String::new();
+    let (mut svg, mut legend) = (String::new(), Vec::new());
     {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         let words = |size: u32| (FONT, size).into_font().color(&TEXT);
@@ -128,6 +135,8 @@ fn draw(mut lines: Vec<Line>, quantity: Quantity) -> Result<String, Box<dyn std:
             })
             .axis_desc_style(words(15))
             .label_style(words(13))
+            // Powers of two alone.
+            .x_labels((many.log2().floor() - few.log2().ceil()).max(0.0) as usize + 1)
             .x_label_formatter(&|power| format!("{:.0}", power.exp2()))
             .axis_style(TEXT)
             .bold_line_style(GRID)
@@ -143,19 +152,11 @@ fn draw(mut lines: Vec<Line>, quantity: Quantity) -> Result<String, Box<dyn std:
                 .into_iter()
                 .map(|(images, error)| (images.log2(), error));
             let style = colour.stroke_width(2);
-            chart
-                .draw_series(LineSeries::new(points, style).point_size(3))?
-                .label(name)
-                .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], style));
+            chart.draw_series(LineSeries::new(points, style).point_size(3))?;
+            let RGBColor(red, green, blue) = colour;
+            legend.push((name, format!("#{red:02x}{green:02x}{blue:02x}")));
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .label_font(words(13))
-            .border_style(TRANSPARENT)
-            .background_style(TRANSPARENT)
-            .draw()?;
         area.present()?;
     }
-    Ok(svg)
+    Ok(Chart { svg, legend })
 }

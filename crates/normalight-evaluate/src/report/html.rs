@@ -1,6 +1,6 @@
 //! The report as one page that needs no other file.
 use super::Report;
-use super::charts::by_images;
+use super::charts::{Chart, by_images};
 use super::pictures::{MOST_DEGREES, MethodPictures, ObjectPictures, colour};
 use super::rows::{Grid, GridRow, Quantity, by_object, disturbed, summary};
 use crate::published::PUBLISHED;
@@ -36,11 +36,11 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
             "Errors of the lights against the number of photographs",
         ),
     ];
-    let charts: Vec<(&str, String)> = charts
+    let charts: Vec<(&str, Chart)> = charts
         .into_iter()
         .filter_map(|(quantity, title)| {
             let chart = by_images(tables, quantity).transpose()?;
-            Some(chart.map(|svg| (title, svg)))
+            Some(chart.map(|chart| (title, chart)))
         })
         .collect::<Result<_, _>>()?;
     let published = PUBLISHED.iter().filter(|one| {
@@ -74,11 +74,16 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
                         (grid(&by_object(tables, images, Quantity::Normals)))
                         (grid(&by_object(tables, images, Quantity::Lights)))
                     }
-                    @for (title, svg) in &charts {
+                    @for (title, chart) in &charts {
                         section {
                             h2 { (title) }
                             // Its figures stand in the tables above.
-                            figure { img class="chart" src=(data("image/svg+xml", svg.as_bytes())) alt=(format!("{title}, a line for each method; the figures stand in the table of all methods")); }
+                            figure {
+                                img class="chart" src=(data("image/svg+xml", chart.svg.as_bytes())) alt=(format!("{title}, a line for each method; the figures stand in the table of all methods"));
+                                figcaption {
+                                    ul.legend { @for (name, colour) in &chart.legend { li { span style=(format!("background: {colour}")) {} (name) } } }
+                                }
+                            }
                         }
                     }
                     (grid(&disturbed(tables)))
@@ -118,7 +123,7 @@ fn grid(grid: &Grid) -> Markup {
                 p { (grid.note) }
                 div.scroll tabindex="0" role="region" aria-label=(grid.title) {
                     table {
-                        thead { tr { @for head in &grid.heads { th scope="col" { button type="button" { (head) } } } } }
+                        thead { tr { @for (column, head) in grid.heads.iter().enumerate() { th scope="col" class=[(column < grid.words).then_some("words")] { button type="button" { (head) } } } } }
                         tbody {
                             @for row in &grid.rows {
                                 tr class=[row.published.then_some("published")] {
@@ -126,7 +131,7 @@ fn grid(grid: &Grid) -> Markup {
                                         (row.cells[0])
                                         @if row.published { " " small { "published" } }
                                     }
-                                    @for cell in &row.cells[1..] { td data-key=(cell) { (cell) } }
+                                    @for (column, cell) in row.cells.iter().enumerate().skip(1) { td class=[(column < grid.words).then_some("words")] data-key=(cell) { (cell) } }
                                 }
                             }
                         }

@@ -1,7 +1,7 @@
 //! What stands in the tables of all reports.
 use crate::published::{PUBLISHED, Published};
 use crate::table::known;
-use crate::{EvaluateError, Table, Trial};
+use crate::{EvaluateError, Method, Table, Trial};
 
 /// A table of words and figures, however it is written.
 pub(super) struct Grid {
@@ -9,6 +9,8 @@ pub(super) struct Grid {
     /// What is to be known of it.
     pub(super) note: String,
     pub(super) heads: Vec<String>,
+    /// Number of columns that hold words, from the first.
+    pub(super) words: usize,
     pub(super) rows: Vec<GridRow>,
 }
 
@@ -82,7 +84,11 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
             ]);
         }
         cells.resize(heads.len() - 1, "-".to_owned());
-        cells.push(table.objects.len().to_string());
+        let measured = table.objects.len();
+        cells.push(match table.failures.len() {
+            0 => measured.to_string(),
+            failed => format!("{measured} of {}", measured + failed),
+        });
         GridRow {
             published: false,
             cells,
@@ -95,6 +101,7 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
                deviation over random choices of photographs."
             .to_owned(),
         rows: rows.collect(),
+        words: 1,
         heads: heads.map(str::to_owned).to_vec(),
     }
 }
@@ -104,6 +111,21 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
 pub(super) enum Quantity {
     Normals,
     Lights,
+}
+
+/// Whether a method has such errors of its own: one that is told the lights has none, and two that take the same lights are
+/// one.
+pub(super) fn shown(tables: &[Table], table: &Table, quantity: Quantity) -> bool {
+    let networks = || {
+        tables
+            .iter()
+            .any(|table| table.method == Method::Uncalibrated)
+    };
+    match (quantity, table.method) {
+        (Quantity::Normals, _) => true,
+        (Quantity::Lights, Method::EstimatedLeastSquares) => !networks(),
+        (Quantity::Lights, method) => !method.knows_lights(),
+    }
 }
 
 /// One number of photographs, a line for each method and a column for each object, published methods beside ours.
@@ -117,7 +139,7 @@ pub(super) fn by_object(tables: &[Table], images: Option<usize>, quantity: Quant
         all.filter(|table| table.images == images && table.disturbance.is_none())
     };
     let mut rows: Vec<GridRow> = of_it()
-        .filter(|table| quantity == Quantity::Normals || !table.method.knows_lights())
+        .filter(|table| shown(tables, table, quantity))
         .map(|table| {
             let value = |figures: &crate::Figures| match quantity {
                 Quantity::Normals => Some(figures.normal_degrees),
@@ -150,20 +172,20 @@ pub(super) fn by_object(tables: &[Table], images: Option<usize>, quantity: Quant
     }
     let (what, rest) = match quantity {
         Quantity::Normals => ("normals", ""),
-        Quantity::Lights => ("light directions", ", methods that are not told them"),
+        Quantity::Lights => ("light directions", ", of methods that are not told them"),
     };
+    let count = images.map_or("all photographs".to_owned(), |images| {
+        format!("{images} photographs")
+    });
+    let mut note = format!("Mean angular errors in degrees{rest}.");
+    if rows.iter().any(|row| row.published) {
+        note += " Published figures are of all 96 photographs, their means here of the objects in this table.";
+    }
     Grid {
-        title: format!(
-            "Errors of the {what}, {}",
-            images.map_or("all photographs".to_owned(), |images| format!(
-                "{images} photographs"
-            ))
-        ),
-        note: format!(
-            "Mean angular errors in degrees{rest}. Published figures are of all 96 photographs, and their means here of the \
-             objects in this table."
-        ),
+        title: format!("Errors of the {what}, {count}"),
+        note,
         heads,
+        words: 1,
         rows,
     }
 }
@@ -229,6 +251,7 @@ pub(super) fn disturbed(tables: &[Table]) -> Grid {
         note: "What goes wrong in practice, done to the photographs of the benchmark. Mean angular errors in degrees."
             .to_owned(),
         rows: rows.collect(),
+        words: 2,
         heads: heads.map(str::to_owned).to_vec(),
     }
 }
