@@ -197,9 +197,19 @@ fn classical_methods_solve_a_matte_ball() {
         // Least squares is wrong where an attached shadow cuts a cosine off.
         assert!(normals < 2.0 && lights.is_none(), "{method:?}: {normals}");
     }
-    // An untrained network finds other lights than the true ones: that must show.
-    let (normals, lights) = degrees(&ball, Method::EstimatedLeastSquares);
-    assert!(normals > 2.0 && lights.unwrap() > 2.0);
+    // An untrained network finds other lights than the true ones: that must show, and be the same by what it found before.
+    let estimator = estimator();
+    let measure = |method| {
+        let settings = EstimateSettings::default();
+        evaluate_object(&estimator, &ball, method, settings, &mut NoopObserver).unwrap()
+    };
+    let guessed = measure(Method::EstimatedLeastSquares).figures.figures;
+    assert!(guessed.normal_degrees > 2.0 && guessed.light_degrees.unwrap() > 2.0);
+    let again = measure(Method::Uncalibrated)
+        .with_least_squares(&ball)
+        .unwrap();
+    assert_eq!(again.figures.figures.normal_degrees, guessed.normal_degrees);
+    assert_eq!(again.figures.figures.light_degrees, guessed.light_degrees);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::terminal::note;
 use anyhow::Result;
 use indicatif::ProgressBar;
 use normalight_evaluate::{
-    BenchmarkObject, EvaluateError, Method, Photographs, Trial, evaluate_object,
+    BenchmarkObject, EvaluateError, Measured, Method, Photographs, Trial, evaluate_object,
 };
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -36,6 +36,8 @@ impl Work<'_> {
         let mut object = None;
         let mut trials = Vec::new();
         for &photographs in self.choices {
+            // What the networks found of this choice.
+            let mut networks = None;
             for &method in self.methods {
                 if interrupt::asked() {
                     return Ok(trials);
@@ -55,7 +57,7 @@ impl Work<'_> {
                 self.bar.set_message(format!("{name}: {}", method.name()));
                 let object = object.get_or_insert_with(|| self.read(source));
                 trial.result = match object {
-                    Ok(object) => self.one(object, &trial)?,
+                    Ok(object) => self.one(object, &trial, &mut networks)?,
                     Err(reason) => Err(reason.clone()),
                 };
                 if interrupt::asked() {
@@ -106,7 +108,12 @@ impl Work<'_> {
     }
 
     /// Measures once; the inner error is the object's.
-    fn one(&self, object: &BenchmarkObject, trial: &Trial) -> Result<TrialResult> {
+    fn one(
+        &self,
+        object: &BenchmarkObject,
+        trial: &Trial,
+        networks: &mut Option<Measured>,
+    ) -> Result<TrialResult> {
         let chosen = match chosen(object, trial.photographs) {
             Ok(chosen) => chosen,
             Err(error) => return Ok(Err(error.to_string())),
@@ -119,15 +126,22 @@ impl Work<'_> {
         } = self.estimation;
         // One bar for all trials; this one only listens for Ctrl-C.
         let mut observer = ProgressObserver::new(String::new(), true);
-        let measured =
-            match evaluate_object(estimator, object, trial.method, *settings, &mut observer) {
-                Ok(measured) => measured,
-                Err(error) => return Ok(Err(error.to_string())),
-            };
+        let measured = match (trial.method, &*networks) {
+            (Method::EstimatedLeastSquares, Some(found)) => found.with_least_squares(object),
+            (method, _) => evaluate_object(estimator, object, method, *settings, &mut observer),
+        };
+        let measured = match measured {
+            Ok(measured) => measured,
+            Err(error) => return Ok(Err(error.to_string())),
+        };
         if let Some(store) = self.store.filter(|_| self.is_drawn(trial)) {
             store.keep_pictures(trial, object, &measured)?;
         }
-        Ok(Ok(measured.figures))
+        let figures = measured.figures.clone();
+        if trial.method == Method::Uncalibrated {
+            *networks = Some(measured);
+        }
+        Ok(Ok(figures))
     }
 
     /// Says what went wrong, each reason once for an object.
