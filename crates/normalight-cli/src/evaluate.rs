@@ -65,20 +65,21 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
         };
         print(&format!("\n{method}{}\n{}", table.title(), table.to_text()))?;
     }
+    let failed = trials.iter().any(|trial| trial.result.is_err());
     let mut bytes = serde_json::to_vec_pretty(&evaluation)?;
     bytes.push(b'\n');
     if let Some(store) = store {
         let report = Report {
             facts: evaluation.facts(),
             pictures: store.all_pictures(&trials),
-            trials: trials.clone(),
+            trials,
         };
         store.write(&report, bytes.clone())?;
     }
     if let Some((folder, name)) = json {
         folder.write(&[(name, bytes)])?;
     }
-    Ok(if trials.iter().any(|trial| trial.result.is_err()) {
+    Ok(if failed {
         Outcome::PartlyFailed
     } else {
         Outcome::Done

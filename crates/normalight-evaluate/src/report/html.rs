@@ -2,7 +2,7 @@
 use super::Report;
 use super::charts::{Chart, by_images};
 use super::pictures::{MOST_DEGREES, MethodPictures, ObjectPictures, colour};
-use super::rows::{Grid, GridRow, Quantity, by_object, disturbed, summary};
+use super::rows::{Grid, Quantity, by_object, disturbed, summary};
 use crate::published::PUBLISHED;
 use crate::{EvaluateError, Table};
 use base64::Engine as _;
@@ -14,16 +14,6 @@ const STYLE: &str = include_str!("report.css");
 /// No request leaves the page, whatever stands in it.
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
-
-/// The numbers of photographs, the largest first.
-pub(super) fn counts(tables: &[Table]) -> Vec<Option<usize>> {
-    let whole = tables.iter().filter(|table| table.disturbance.is_none());
-    let mut counts: Vec<Option<usize>> = whole.map(|table| table.images).collect();
-    // `None`, all of them, is the most.
-    counts.sort_by_key(|count| std::cmp::Reverse(count.unwrap_or(usize::MAX)));
-    counts.dedup();
-    counts
-}
 
 pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, EvaluateError> {
     let charts = [
@@ -43,16 +33,12 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
             Some(chart.map(|chart| (title, chart)))
         })
         .collect::<Result<_, _>>()?;
-    let published = PUBLISHED.iter().filter(|one| {
-        let of_it = |row: &GridRow| row.published && row.cells[0] == one.name;
-        counts(tables).into_iter().any(|images| {
-            by_object(tables, images, Quantity::Normals)
-                .rows
-                .iter()
-                .any(of_it)
-        })
-    });
-    let published: Vec<_> = published.collect();
+    let by_object = by_object(tables);
+    let listed = |name: &str| {
+        let mut rows = by_object.iter().flat_map(|grid| &grid.rows);
+        rows.any(|row| row.published && row.cells[0] == name)
+    };
+    let published: Vec<_> = PUBLISHED.iter().filter(|one| listed(one.name)).collect();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -70,10 +56,7 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
                         @for fact in &report.facts { div { dt { (fact.name) } dd { (fact.value) } } }
                     }
                     (grid(&summary(tables)))
-                    @for images in counts(tables) {
-                        (grid(&by_object(tables, images, Quantity::Normals)))
-                        (grid(&by_object(tables, images, Quantity::Lights)))
-                    }
+                    @for one in &by_object { (grid(one)) }
                     @for (title, chart) in &charts {
                         section {
                             h2 { (title) }

@@ -1,6 +1,6 @@
 //! The tables for READMEs and papers.
-use super::rows::{Grid, Quantity, by_object, disturbed, summary};
-use super::{Report, html::counts};
+use super::Report;
+use super::rows::{Grid, by_object, disturbed, summary};
 use crate::Table;
 use std::fmt::Write as _;
 
@@ -10,10 +10,8 @@ pub(super) fn text(report: &Report, tables: &[Table]) -> String {
         let _ = writeln!(text, "- {}: {}", plain(&fact.name), plain(&fact.value));
     }
     write(&mut text, &summary(tables));
-    for images in counts(tables) {
-        for quantity in [Quantity::Normals, Quantity::Lights] {
-            write(&mut text, &by_object(tables, images, quantity));
-        }
+    for grid in by_object(tables) {
+        write(&mut text, &grid);
     }
     write(&mut text, &disturbed(tables));
     text

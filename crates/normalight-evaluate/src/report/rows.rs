@@ -2,6 +2,7 @@
 use crate::published::{PUBLISHED, Published};
 use crate::table::known;
 use crate::{EvaluateError, Method, Table, Trial};
+use std::cmp::Reverse;
 
 /// A table of words and figures, however it is written.
 pub(super) struct Grid {
@@ -128,8 +129,20 @@ pub(super) fn shown(tables: &[Table], table: &Table, quantity: Quantity) -> bool
     }
 }
 
+/// For each number of photographs, the largest first, the errors of the normals and of the lights of every object.
+pub(super) fn by_object(tables: &[Table]) -> Vec<Grid> {
+    let whole = tables.iter().filter(|table| table.disturbance.is_none());
+    let mut counts: Vec<Option<usize>> = whole.map(|table| table.images).collect();
+    // `None`, all of them, is the most.
+    counts.sort_by_key(|count| Reverse(count.unwrap_or(usize::MAX)));
+    counts.dedup();
+    let both = [Quantity::Normals, Quantity::Lights];
+    let of_count = |images| both.map(|quantity| of_quantity(tables, images, quantity));
+    counts.into_iter().flat_map(of_count).collect()
+}
+
 /// One number of photographs, a line for each method and a column for each object, published methods beside ours.
-pub(super) fn by_object(tables: &[Table], images: Option<usize>, quantity: Quantity) -> Grid {
+fn of_quantity(tables: &[Table], images: Option<usize>, quantity: Quantity) -> Grid {
     let names = objects(tables);
     let mut heads = vec!["Method".to_owned()];
     heads.extend(names.iter().map(|&name| name.to_owned()));
