@@ -36,10 +36,16 @@ pub(super) fn compare(spectra: &Spectra, most: usize) -> Compared {
     let pairs: Vec<[usize; 2]> = (0..count)
         .flat_map(|b| (0..b).map(move |a| [a, b]))
         .collect();
-    let found = on_all_cores(pairs.len(), |pair| {
-        let [first, second] = pairs[pair].map(|place| chosen[place]);
-        spectra.likeness(first, second)
+    // Two are as fast as one.
+    let twos: Vec<&[[usize; 2]]> = pairs.chunks(2).collect();
+    let found = on_all_cores(twos.len(), |two| {
+        let shots: Vec<[usize; 2]> = twos[two]
+            .iter()
+            .map(|pair| pair.map(|place| chosen[place]))
+            .collect();
+        spectra.likenesses(&shots)
     });
+    let found: Vec<(f32, f32)> = found.into_iter().flatten().collect();
     let of_one = || found.iter().filter(|(fit, _)| *fit >= ALIKE);
     let away = of_one().filter(|(_, away)| *away > AWAY).count();
     let apart = away as f32 > APART * of_one().count() as f32;

@@ -113,11 +113,35 @@ impl Spectra {
 
     /// How a shot fits a sum of others.
     pub(super) fn fit(&self, reference: &[Complex32], shot: usize) -> Fit {
-        self.fit_of(self.product(reference, shot))
+        let product = [self.product(reference, shot)];
+        let [surface, _] = self.transform.real_inverse(&product);
+        self.fit_of(&product[0], &surface)
     }
 
-    /// How a shot fits a sum in which it lies itself, moved back by `shift`: without its own part.
-    pub(super) fn fit_to_others(&self, sum: &[Complex32], shot: usize, shift: [f32; 2]) -> Fit {
+    /// How one or two shots fit a sum in which each lies itself, moved back by its shift: without its own part.
+    pub(super) fn fits_to_others(
+        &self,
+        sum: &[Complex32],
+        shots: &[usize],
+        shifts: &[[f32; 2]],
+    ) -> Vec<Fit> {
+        let products = shots
+            .iter()
+            .map(|&shot| self.product_with_others(sum, shot, shifts[shot]));
+        let products: Vec<Vec<Complex32>> = products.collect();
+        let surfaces = self.transform.real_inverse(&products);
+        let pairs = products.iter().zip(&surfaces);
+        pairs
+            .map(|(product, surface)| self.fit_of(product, surface))
+            .collect()
+    }
+
+    fn product_with_others(
+        &self,
+        sum: &[Complex32],
+        shot: usize,
+        shift: [f32; 2],
+    ) -> Vec<Complex32> {
         let height = self.transform.height;
         let across = turn(self.transform.width, shift[0]);
         let down = turn(height, shift[1]);
@@ -131,20 +155,19 @@ impl Spectra {
                 entries.map(|((sum, value), down)| (sum - value * across * down).conj() * value),
             );
         }
-        self.fit_of(product)
+        product
     }
 
-    /// The best fit by the product of two spectra.
-    fn fit_of(&self, product: Vec<Complex32>) -> Fit {
-        let surface = self.transform.inverse(product.clone());
-        let deviation = deviation(&surface);
+    /// The best fit by the product of two spectra and its value at each shift.
+    fn fit_of(&self, product: &[Complex32], surface: &[f32]) -> Fit {
+        let deviation = deviation(surface);
         if deviation <= NOTHING {
             return Fit::default();
         }
         let (width, height) = (self.transform.width, self.transform.height);
         let at = |x: i64, y: i64| {
             let (x, y) = (x.rem_euclid(width as i64), y.rem_euclid(height as i64));
-            surface[y as usize * width + x as usize].re
+            surface[y as usize * width + x as usize]
         };
         let (mut best, mut place) = (at(0, 0), (0, 0));
         let mut far = (best, place);
@@ -155,13 +178,13 @@ impl Spectra {
             // Shifts to the left stand at the end of a row.
             let ends = [(-range, width - self.range..width), (0, 0..self.range + 1)];
             for (first, part) in ends {
-                for (x, value) in (first..).zip(&row[part]) {
+                for (x, &value) in (first..).zip(&row[part]) {
                     let is_near = x.abs().max(y.abs()) <= self.near;
-                    if is_near && value.re > best {
-                        (best, place) = (value.re, (x, y));
+                    if is_near && value > best {
+                        (best, place) = (value, (x, y));
                     }
-                    if value.re > far.0 {
-                        far = (value.re, (x, y));
+                    if value > far.0 {
+                        far = (value, (x, y));
                     }
                 }
             }
@@ -175,25 +198,34 @@ impl Spectra {
             y as f32 + summit(at(x, y - 1), best, at(x, y + 1)),
         ];
         Fit {
-            shift: self.refined(&product, near),
+            shift: self.refined(product, near),
             best: best / deviation,
             unmoved: at(0, 0) / deviation,
         }
     }
 
-    /// How far the best fit of two shots stands out over all shifts, however large, and how many pixels away it is.
-    pub(super) fn likeness(&self, a: usize, b: usize) -> (f32, f32) {
-        let surface = self.transform.inverse(self.product(&self.spectra[a], b));
+    /// How far the best fit of each of one or two pairs of shots stands out over all shifts, however large, and how many
+    /// pixels away it is.
+    pub(super) fn likenesses(&self, pairs: &[[usize; 2]]) -> Vec<(f32, f32)> {
+        let products = pairs
+            .iter()
+            .map(|&[a, b]| self.product(&self.spectra[a], b));
+        let surfaces = self.transform.real_inverse(&products.collect::<Vec<_>>());
+        let surfaces = surfaces.iter().take(pairs.len());
+        surfaces.map(|surface| self.likeness_of(surface)).collect()
+    }
+
+    fn likeness_of(&self, surface: &[f32]) -> (f32, f32) {
         let (mut best, mut place) = (0.0, 0);
-        for (at, value) in surface.iter().enumerate() {
-            if value.re > best {
-                (best, place) = (value.re, at);
+        for (at, &value) in surface.iter().enumerate() {
+            if value > best {
+                (best, place) = (value, at);
             }
         }
         let around = |place: usize, length: usize| place.min(length - place) as f32;
         let width = self.transform.width;
         let away = around(place % width, width).hypot(around(place / width, self.transform.height));
-        match deviation(&surface) {
+        match deviation(surface) {
             deviation if deviation > NOTHING => (best / deviation, away),
             _ => (0.0, 0.0),
         }
@@ -261,10 +293,10 @@ fn turn(length: usize, shift: f32) -> Vec<Complex32> {
 }
 
 /// Standard deviation of a correlation over all shifts.
-fn deviation(surface: &[Complex32]) -> f32 {
+fn deviation(surface: &[f32]) -> f32 {
     let count = surface.len() as f64;
-    let sum: f64 = surface.iter().map(|value| f64::from(value.re)).sum();
-    let squares: f64 = surface.iter().map(|v| f64::from(v.re).powi(2)).sum();
+    let sum: f64 = surface.iter().map(|&value| f64::from(value)).sum();
+    let squares: f64 = surface.iter().map(|&value| f64::from(value).powi(2)).sum();
     (squares / count - (sum / count).powi(2)).max(0.0).sqrt() as f32
 }
 

@@ -44,13 +44,63 @@ impl Transform {
         spectrum
     }
 
+    /// The real parts of the fields `[height, width]` of one or two spectra, without the factor of 1 / (width * height), by
+    /// one transform; of one spectrum, the second is empty.
+    pub(super) fn real_inverse(&self, spectra: &[Vec<Complex32>]) -> [Vec<f32>; 2] {
+        let parts = |field: &[Complex32], part: fn(&Complex32) -> f32| -> Vec<f32> {
+            field.iter().map(part).collect()
+        };
+        let [first, second] = spectra else {
+            let alone = spectra.first().map(|first| self.inverse(first.clone()));
+            let alone = alone.unwrap_or_default();
+            return [parts(&alone, |value| value.re), Vec::new()];
+        };
+        let both = self.inverse(spectrum_of_two([first, second], self.height));
+        let mut fields = [
+            parts(&both, |value| value.re),
+            parts(&both, |value| value.im),
+        ];
+        for (field, spectrum) in fields.iter_mut().zip(spectra) {
+            // Nothing stays nothing, without the rounding of the other.
+            if spectrum.iter().all(|value| *value == Complex32::ZERO) {
+                field.fill(0.0);
+            }
+        }
+        fields
+    }
+
     /// Field `[height, width]` of a spectrum, without the factor of 1 / (width * height).
-    pub(super) fn inverse(&self, mut spectrum: Vec<Complex32>) -> Vec<Complex32> {
+    fn inverse(&self, mut spectrum: Vec<Complex32>) -> Vec<Complex32> {
         self.along_columns[1].process(&mut spectrum);
         let mut field = transposed(&spectrum, self.height);
         self.along_rows[1].process(&mut field);
         field
     }
+}
+
+/// The spectrum of the real part of the first field and, times i, of the second's: one transform brings both back.
+fn spectrum_of_two([first, second]: [&[Complex32]; 2], height: usize) -> Vec<Complex32> {
+    let width = first.len() / height;
+    let mut both = Vec::with_capacity(first.len());
+    for x in 0..width {
+        let line = |spectrum| line(spectrum, x, height);
+        let opposite = |spectrum| self::line(spectrum, (width - x) % width, height);
+        let (a, a_opposite) = (line(first), opposite(first));
+        let (b, b_opposite) = (line(second), opposite(second));
+        for y in 0..height {
+            let y_opposite = if y == 0 { 0 } else { height - y };
+            // Twice the part of a spectrum that is a real field's.
+            let real_a = a[y] + a_opposite[y_opposite].conj();
+            let real_b = b[y] + b_opposite[y_opposite].conj();
+            both.push(Complex32::new(real_a.re - real_b.im, real_a.im + real_b.re) * 0.5);
+        }
+    }
+    both
+}
+
+/// The entries of one frequency across.
+fn line(spectrum: &[Complex32], x: usize, height: usize) -> &[Complex32] {
+    &spectrum[x * height..(x + 1) * height]
 }
 
 fn transposed(field: &[Complex32], width: usize) -> Vec<Complex32> {
@@ -117,6 +167,22 @@ mod tests {
         }
         for (found, expected) in transform.inverse(spectrum).iter().zip(&field) {
             assert!((found / 96.0 - expected).norm() < 1e-5);
+        }
+        // Of any two spectra, not those of real fields, the same as one by one.
+        let noise = |seed: usize| -> Vec<Complex32> {
+            let value = |at: usize| ((at * 7919 + seed * 104_729) % 1013) as f32 / 1013.0 - 0.5;
+            (0..96)
+                .map(|at| Complex32::new(value(at), value(at + 500)))
+                .collect()
+        };
+        let spectra = [noise(1), noise(2)];
+        let both = transform.real_inverse(&spectra);
+        for (found, spectrum) in both.iter().zip(&spectra) {
+            let [alone, _] = transform.real_inverse(std::slice::from_ref(spectrum));
+            assert_eq!(found.len(), alone.len());
+            for (found, alone) in found.iter().zip(alone) {
+                assert!((found - alone).abs() < 1e-4);
+            }
         }
         let third = frequencies(12).nth(2).unwrap();
         assert!((third - 2.0 / 12.0).abs() < 1e-12);
