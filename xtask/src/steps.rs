@@ -24,10 +24,8 @@ pub enum Step {
     Deny,
     /// These tasks themselves: lints, documentation and tests.
     Xtask,
-    /// Lints of the native crates.
+    /// Lints of the native crates, with CUDA.
     Clippy,
-    /// Lints of the command with CUDA.
-    Cuda,
     /// The documentation builds without warnings.
     Docs,
     /// The command and the native tests, compiled.
@@ -118,7 +116,7 @@ fn sum_up(workspace: &Workspace, times: &[(String, Duration)]) {
 fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
     for step in steps {
         match step {
-            Step::Fmt | Step::Clippy | Step::Cuda | Step::Xtask => tools.components()?,
+            Step::Fmt | Step::Clippy | Step::Xtask => tools.components()?,
             Step::WasmClippy | Step::Wasm => drop(tools.toolchain()?),
             Step::NpmCi | Step::Check | Step::Page => drop(tools.node()?),
             Step::PageTests => {
@@ -154,6 +152,14 @@ impl Step {
             command.args(NATIVE).args(after);
             command
         };
+        // With everything that can be built in, in one pass over the dependencies. Burn's CUDA compiler links LLVM, which
+        // its build script would download. Under this variable it leaves LLVM and its C++ alone: enough to check all
+        // Rust, not to link.
+        let checked = |subcommand: &str, after: &[&str]| {
+            let mut command = native(&[subcommand], &["--features", "normalight-cli/cuda"]);
+            command.args(after).env("DOCS_RS", "1");
+            command
+        };
         let npm = |arguments: &[&str]| anyhow::Ok(tools.node()?.npm(workspace, arguments));
         match self {
             Self::Fmt => run::run(&mut workspace.cargo(&["fmt", "--all", "--check"])),
@@ -166,20 +172,12 @@ impl Step {
                 run::run(workspace.cargo(&docs).env("RUSTDOCFLAGS", "-D warnings"))?;
                 run::run(&mut workspace.cargo(&["test", "--package", "xtask"]))
             }
-            Self::Clippy => run::run(&mut native(
-                &["clippy"],
+            Self::Clippy => run::run(&mut checked(
+                "clippy",
                 &["--all-targets", "--", "-D", "warnings"],
             )),
-            Self::Cuda => {
-                let lint = ["clippy", "--release", "--package", "normalight-cli"];
-                let mut command = workspace.cargo(&lint);
-                command.args(["--features", "cuda", "--", "-D", "warnings"]);
-                // Burn's CUDA compiler links LLVM, which its build script would download. Under this
-                // variable it leaves LLVM and its C++ alone: enough to check all Rust, not to link.
-                run::run(command.env("DOCS_RS", "1"))
-            }
             Self::Docs => {
-                run::run(native(&["doc", "--no-deps"], &[]).env("RUSTDOCFLAGS", "-D warnings"))
+                run::run(checked("doc", &["--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
             }
             // With the tests, although only the command is wanted: the features of development
             // dependencies count then too, as they do in the next step.

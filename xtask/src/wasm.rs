@@ -16,6 +16,7 @@ use crate::workspace::{Workspace, forget_this_package};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const CRATE: &str = "normalight-wasm";
+const PROFILE: &str = "browser";
 
 /// Debian's Rust for WebAssembly, with the sources of the standard library and a linker.
 const PACKAGES: [&str; 6] = [
@@ -73,7 +74,7 @@ impl Toolchain {
         ] {
             command.env_remove(name);
         }
-        command.args(["--release", "--target", TARGET, "--package", CRATE]);
+        command.args(["--profile", PROFILE, "--target", TARGET, "--package", CRATE]);
         if matches!(self, Self::Debian) {
             command.arg("-Zbuild-std=std,panic_abort");
         }
@@ -181,7 +182,7 @@ pub fn bindgen(workspace: &Workspace) -> Result<()> {
     let module: PathBuf = workspace
         .wasm_target()
         .join(TARGET)
-        .join("release")
+        .join(PROFILE)
         .join("normalight_wasm.wasm");
     if !module.is_file() {
         bail!(
