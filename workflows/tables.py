@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 RUN = ["network", "parameters", "seed", "state", "steps", "steps_planned", "hours", "weights_sha256"]
-RECIPE = ["recipe", "network", "parameters", "runs", "finished", "mean", "spread", "best seed"]
+RECIPE = ["recipe", "network", "parameters", "runs", "finished", "mean", "spread", "best seed", "average"]
 
 
 def runs(folder):
@@ -30,6 +30,12 @@ def runs(folder):
 def degrees(run):
     """Mean error on unseen objects of the weights that were kept."""
     return (run["best"] or {}).get("degrees")
+
+
+def averaged(folder, name):
+    """Mean error of the average of a recipe's weights, where there is one."""
+    path = folder / name / "average.json"
+    return json.loads(path.read_text("utf-8"))["average"] if path.is_file() else ""
 
 
 def compared(name, all_runs):
@@ -59,7 +65,9 @@ def main(folder):
         + [[name, degrees(run), *(run[field] for field in RUN)] for name, run in found],
     )
     names = dict.fromkeys(name for name, _ in found)
-    lines = [compared(name, [run for other, run in found if other == name]) for name in names]
+    lines = [
+        [*compared(name, [run for other, run in found if other == name]), averaged(folder, name)] for name in names
+    ]
     # Errors of the two networks are of different things.
     lines.sort(key=lambda line: (line[1], math.inf if line[5] == "" else line[5]))
     write(folder / "comparison.csv", [RECIPE, *lines])

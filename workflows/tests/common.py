@@ -88,11 +88,11 @@ class Case(unittest.TestCase):
             self.assertLess(time.monotonic(), end, "waited in vain")
             time.sleep(0.002)
 
-    def recipe(self, name, network, steps, more=""):
-        """Writes a recipe; its file."""
+    def recipe(self, name, network, steps, more="", first=""):
+        """Writes a recipe; its file. Keys stand first, tables last."""
         file = self.folder / f"{name}.toml"
         text = RECIPE.format(network=network, steps=steps, size=64 if network == "light" else 16)
-        file.write_text(text + more, "utf-8")
+        file.write_text(first + text + more, "utf-8")
         return file
 
     def same_training(self, run, recipe, network="normal"):

@@ -2,6 +2,7 @@
 
 import csv
 import hashlib
+import json
 import statistics
 
 from common import PROGRAM, Case, jobs, kill_all, summary
@@ -15,6 +16,18 @@ growth = 2
 widths = [8]
 sizes = [16]
 """
+
+
+ROUNDS = ["round-1 1", "round-1 2", "round-2 1", "round-2 2"]
+
+
+def errors_of_search(folder):
+    """Number, error and place on the front of each network of each round."""
+    found = json.loads((folder / "search.json").read_text("utf-8"))
+    assert found["state"] == "finished"
+    return [
+        [(one["number"], one["degrees"], one["on_front"]) for one in rung["candidates"]] for rung in found["rounds"]
+    ]
 
 
 class Train(Case):
@@ -97,9 +110,47 @@ class Train(Case):
         self.assertEqual(len(self.table("comparison.csv")), len(fronts))
         self.does_nothing("train.smk", self.config)
 
+    def test_a_search_in_shards_finds_what_one_job_finds(self):
+        recipe = self.recipe("small", "normal", 2, SEARCH)
+        self.config["recipes"] = []
+        self.config["seeds"] = [1]
+        self.config["searches"] = [{"network": "normal", "recipe": "small.toml", "shards": 2}]
+        self.snakemake("train.smk", self.config)
+        search = self.runs / "search-normal-small"
+        logs = (self.runs / ".workflow/search-normal-small").glob("round-*/*.log")
+        self.assertEqual(sorted(f"{log.parent.name} {log.stem}" for log in logs), ROUNDS)
+        words = ["search", "normal", "--recipe", recipe, "--run", self.folder / "whole"]
+        self.normalight(*words, "--threads", 1, "--device", "cpu", "--quiet")
+        for front in (self.folder / "whole").glob("front-*.toml"):
+            self.assertEqual((search / front.name).read_bytes(), front.read_bytes())
+        found, expected = (errors_of_search(folder) for folder in (search, self.folder / "whole"))
+        self.assertEqual(found, expected)
+        self.does_nothing("train.smk", self.config)
+
+    def test_seeds_from_one_start_are_averaged(self):
+        start = self.folder / "start"
+        self.normalight("train", "normal", "--recipe", "it's normal.toml", "--run", start, "--device", "cpu", "--quiet")
+        self.recipe("on", "normal", 10, first='init = "start/weights.safetensors"\n')
+        self.config.update(recipes=["on.toml"], average=True)
+        self.snakemake("train.smk", self.config)
+        weights = [self.runs / f"on/seed-{seed}/weights.safetensors" for seed in (1, 2)]
+        self.normalight("average", *weights, "--out", "plain.safetensors")
+        averaged = self.runs / "on/average.safetensors"
+        self.assertEqual(averaged.read_bytes(), (self.folder / "plain.safetensors").read_bytes())
+        report = json.loads((self.runs / "on/average.json").read_text("utf-8"))
+        self.assertEqual(float(self.table("comparison.csv")[0]["average"]), report["average"])
+        # What a training measures of the same weights on the same objects.
+        errors = [one["degrees"] for one in report["networks"]]
+        for error, file in zip(errors, weights, strict=True):
+            self.assertAlmostEqual(error, summary(file.parent)["best"]["degrees"], delta=0.05)
+        self.assertNotIn("one start", (self.runs / ".workflow/on/average.log").read_text("utf-8"))
+        self.does_nothing("train.smk", self.config)
+
     def test_what_makes_no_sense_is_refused_in_words(self):
         for change, words in [
             ({"recipes": []}, "nothing to train"),
+            ({"average": True, "seeds": [1]}, "two or more expected"),
+            ({"searches": [{"network": "normal", "recipe": "networks", "shards": 0}]}, "shards is 0"),
             ({"recipes": ["a/x.toml", "b/x.toml"]}, "two runs would be called 'x'"),
         ]:
             with self.subTest(words):

@@ -1,4 +1,4 @@
-//! Which captures are one machine's.
+//! Which captures, or whatever else is in a fixed order, are one machine's.
 use std::fmt;
 use std::num::NonZeroUsize;
 use std::str::FromStr;
@@ -32,6 +32,11 @@ impl Shard {
         (1..=of.get())
             .contains(&index)
             .then_some(Self { index, of })
+    }
+
+    /// Which part, from 1.
+    pub fn index(self) -> usize {
+        self.index
     }
 
     /// Number of parts.

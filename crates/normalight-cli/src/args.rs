@@ -1,4 +1,5 @@
 //! What the commands take; these comments are their help.
+mod average;
 mod batch;
 mod bench;
 mod estimate;
@@ -8,6 +9,7 @@ mod search;
 mod surface;
 mod train;
 
+pub(crate) use average::AverageArgs;
 pub(crate) use batch::BatchArgs;
 pub(crate) use bench::{
     BenchArgs, BenchBatchArgs, BenchCommand, BenchOpsArgs, BenchRenderArgs, BenchSearchArgs,
@@ -49,6 +51,8 @@ pub(crate) enum Command {
     Mesh(MeshArgs),
     /// Train one of the two networks on rendered samples.
     Train(TrainArgs),
+    /// Make one network of several that were trained from one start.
+    Average(AverageArgs),
     /// Search for the cells of one of the two networks, and compare what was found.
     Search(SearchCommands),
     /// Draw synthetic stacks with known lights and normals.

@@ -1,6 +1,7 @@
 //! The command `normalight`: photographs in, lights and normals out; rendering, training, search, evaluation.
 
 mod args;
+mod average;
 mod batch;
 mod bench;
 mod choices;
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
         Command::Batch(args) => batch::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Train(args) => train::run(args),
+        Command::Average(args) => average::run(args),
         Command::Search(args) => search::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Render(args) => render::run(args),

@@ -31,6 +31,9 @@ fn run_network(args: &SearchArgs, network: Network) -> Result<Outcome> {
     if let Some(recipe) = search_recipe::read_networks(&args.recipe, network)? {
         return networks::run(args, recipe);
     }
+    if args.round.is_some() {
+        bail!("--round is of a search of whole networks; one for cells has none");
+    }
     let mut recipe = search_recipe::read(&args.recipe, network)?;
     let training = &mut recipe.training;
     training.seed = args.seed.unwrap_or(training.seed);

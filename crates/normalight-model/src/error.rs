@@ -23,6 +23,14 @@ pub enum ModelError {
         /// Network asked for.
         expected: &'static str,
     },
+    /// Networks that should differ in their numbers alone.
+    #[error("{name}: another architecture than that of {other}")]
+    OtherArchitecture {
+        /// File name.
+        name: String,
+        /// File that it is compared with.
+        other: String,
+    },
     /// A tensor is missing, or has another shape than the architecture needs.
     #[error("{name}: tensor {tensor}: found {found}, expected {expected}")]
     Tensor {

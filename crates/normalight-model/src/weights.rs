@@ -1,3 +1,5 @@
+mod average;
+
 use crate::header::sorted;
 use crate::{
     Architecture, LightArchitecture, LightNetwork, LoadedLightNetwork, LoadedNetwork,
@@ -240,7 +242,7 @@ impl ModuleMapper for Loader<'_> {
 #[derive(Default)]
 struct Collector {
     path: Vec<String>,
-    tensors: BTreeMap<String, (Vec<usize>, Vec<u8>)>,
+    tensors: HalfTensors,
     error: Option<String>,
 }
 
@@ -258,10 +260,7 @@ impl ModuleVisitor for Collector {
         let shape: Vec<usize> = tensor.dims().to_vec();
         match tensor.into_data().try_to_vec::<f32>() {
             Ok(values) => {
-                let bytes = values
-                    .iter()
-                    .flat_map(|&value| f16::from_f32(value).to_le_bytes())
-                    .collect();
+                let bytes = half(values.into_iter());
                 self.tensors.insert(self.path.join("."), (shape, bytes));
             }
             Err(error) => self.error = Some(format!("{error:?}")),
@@ -279,6 +278,17 @@ fn encode<M: Module>(
     if let Some(error) = collector.error {
         return Err(ModelError::Device(error));
     }
+    file_of(architecture, &collector.tensors, notes)
+}
+
+/// Shape and bytes of each tensor, in half precision, by name.
+type HalfTensors = BTreeMap<String, (Vec<usize>, Vec<u8>)>;
+
+fn file_of(
+    architecture: &Architecture,
+    tensors: &HalfTensors,
+    notes: &BTreeMap<String, String>,
+) -> Result<Vec<u8>, ModelError> {
     let json = serde_json::to_string(architecture).map_err(|reason| ModelError::Json {
         name: "architecture".into(),
         reason,
@@ -287,8 +297,7 @@ fn encode<M: Module>(
     metadata.insert("format".into(), "normalight".into());
     metadata.insert("version".into(), FORMAT_VERSION.into());
     metadata.insert("architecture".into(), json);
-    let views = collector
-        .tensors
+    let views = tensors
         .iter()
         .map(|(path, (shape, bytes))| {
             let view = TensorView::new(Dtype::F16, shape.clone(), bytes)
@@ -299,6 +308,12 @@ fn encode<M: Module>(
     safetensors::serialize(views, Some(metadata))
         .map(sorted)
         .map_err(|error| ModelError::Device(error.to_string()))
+}
+
+fn half(values: impl Iterator<Item = f32>) -> Vec<u8> {
+    values
+        .flat_map(|value| f16::from_f32(value).to_le_bytes())
+        .collect()
 }
 
 fn decode(view: &TensorView<'_>) -> Option<Vec<f32>> {

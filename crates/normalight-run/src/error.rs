@@ -74,6 +74,14 @@ pub enum RunError {
         /// Every setting that differs, with both values.
         differences: String,
     },
+    /// What others must finish first.
+    #[error("{path}: waits for {what}")]
+    Waits {
+        /// The folder of all of it.
+        path: PathBuf,
+        /// What is missing.
+        what: String,
+    },
     /// A thread that makes batches ended early.
     #[error("a thread that makes samples stopped")]
     Loader,

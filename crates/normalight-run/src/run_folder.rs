@@ -1,5 +1,6 @@
 //! The folder of a run: one process at a time, files only when complete.
 use crate::difference::{Difference, differences};
+use crate::summary::SUMMARY;
 use crate::{RunError, RunSpec, Summary, checkpoint};
 use normalight_io::{lock_file, write_files};
 use std::fs::{File, OpenOptions};
@@ -10,7 +11,6 @@ use std::time::SystemTime;
 const LOCK: &str = "lock";
 const LOG: &str = "log.txt";
 const RECIPE: &str = "recipe.toml";
-const SUMMARY: &str = "summary.json";
 
 /// A run's folder, locked.
 pub(crate) struct RunFolder {
@@ -92,7 +92,7 @@ impl RunFolder {
                 differences: other.join("; "),
             });
         }
-        if let Some(summary) = self.summary()
+        if let Some(summary) = Summary::read(&self.path)
             && summary.is_end_of(spec.schedule.steps)
         {
             return Ok(Found::Finished(Box::new(summary)));
@@ -139,11 +139,6 @@ impl RunFolder {
 
     pub(crate) fn write_summary(&self, summary: &Summary) -> Result<(), RunError> {
         self.write(SUMMARY, summary.to_json().as_bytes())
-    }
-
-    fn summary(&self) -> Option<Summary> {
-        let bytes = std::fs::read(self.path.join(SUMMARY)).ok()?;
-        serde_json::from_slice(&bytes).ok()
     }
 
     /// Writes a file, which appears when it is complete.

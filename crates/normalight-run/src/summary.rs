@@ -1,6 +1,10 @@
 //! `summary.json`: how a run stands, for job schedulers and workflow engines.
 use crate::{Best, Failure, RunSpec, TrainingState, sha256};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The file in a run's folder.
+pub(crate) const SUMMARY: &str = "summary.json";
 
 /// How a run stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,6 +83,12 @@ impl Summary {
         }
     }
 
+    /// That of the run in a folder; nothing where there is none that can be read.
+    pub fn read(folder: &Path) -> Option<Self> {
+        let bytes = std::fs::read(folder.join(SUMMARY)).ok()?;
+        serde_json::from_slice(&bytes).ok()
+    }
+
     /// The same run ended by an error.
     pub(crate) fn failed(mut self, spec: &RunSpec, error: &impl Failure) -> Self {
         self.state = RunState::Failed;
@@ -88,7 +98,7 @@ impl Summary {
     }
 
     /// Whether nothing is left to do of so many steps.
-    pub(crate) fn is_end_of(&self, steps: usize) -> bool {
+    pub fn is_end_of(&self, steps: usize) -> bool {
         self.state == RunState::Finished && self.steps >= steps
     }
 

@@ -25,8 +25,8 @@ pub use compare::{
 };
 pub use networks::{
     Candidate, CandidateResult, Goal, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe,
-    NetworkSearchResult, NetworkSearchRun, NetworkSearchSettings, NetworkSpace, Rung,
-    search_networks,
+    NetworkSearchResult, NetworkSearchRun, NetworkSearchSettings, NetworkSpace, RoundPart, Rung,
+    search_networks, search_part,
 };
 pub use random::random_genotypes;
 pub use recipe::{AlphaRecipe, Order, SearchRecipe, SearchSettings};

@@ -12,11 +12,18 @@ pub(crate) fn check_start(weights: &Weights, plain: bool, same: bool) -> Result<
                       apart: only plain networks can start from weights";
         return Err(init_error(weights, reason.to_owned()));
     }
-    if !same {
-        let reason = "its architecture is not the recipe's".to_owned();
-        return Err(init_error(weights, reason));
+    check_same(weights, same)
+}
+
+/// Whether the architecture of a weights file is the recipe's.
+pub(crate) fn check_same(weights: &Weights, same: bool) -> Result<(), TrainError> {
+    if same {
+        return Ok(());
     }
-    Ok(())
+    Err(init_error(
+        weights,
+        "its architecture is not the recipe's".to_owned(),
+    ))
 }
 
 pub(crate) fn init_error(weights: &Weights, reason: String) -> TrainError {

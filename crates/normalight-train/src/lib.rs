@@ -22,6 +22,7 @@ mod source;
 #[cfg(feature = "bench")]
 mod speed;
 mod task;
+mod validated;
 
 pub use batch::Batch;
 pub use error::TrainError;
@@ -29,7 +30,7 @@ pub use light_task::LightTask;
 pub use model_card::{data, row};
 pub use network_learner::NetworkLearner;
 pub use normal_task::{NormalTask, NormalTraining};
-pub use predicted::Predictor;
+pub use predicted::{Predictor, read_weights};
 pub use recipe::{
     CacheRecipe, LightMix, LightSettings, Network, NetworkRecipe, NormalSettings, PublishedChoice,
     PublishedRecipe, TrainRecipe, read_table,
@@ -40,3 +41,4 @@ pub use source::Source;
 #[cfg(feature = "bench")]
 pub use speed::{OptimiserStep, SampleSource};
 pub use task::Task;
+pub use validated::validated;

@@ -1,5 +1,5 @@
 use crate::batch::Batch;
-use crate::init::{check_start, init_error};
+use crate::init::{check_same, check_start, init_error};
 use crate::task::Task;
 use crate::{LightSettings, NetworkRecipe, TrainError};
 use burn::tensor::{Device, Tensor, TensorData, activation};
@@ -67,6 +67,12 @@ impl Task for LightTask {
         check_start(weights, plain, same)?;
         let filled = fill(network, &mut collect(&stored.network));
         filled.map_err(|reason| init_error(weights, reason))
+    }
+
+    fn stored(&self, weights: &Weights, device: &Device) -> Result<LightNetwork, TrainError> {
+        let stored = weights.light_network(device)?;
+        check_same(weights, stored.architecture == self.settings.architecture)?;
+        Ok(stored.network)
     }
 
     fn append(&self, sample: &Sample, _predicted: Option<&[Light]>, _seed: u64, batch: &mut Batch) {

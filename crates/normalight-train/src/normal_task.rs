@@ -1,5 +1,5 @@
 use crate::batch::Batch;
-use crate::init::{check_start, init_error};
+use crate::init::{check_same, check_start, init_error};
 use crate::lights::{disturbed, mixed};
 use crate::task::Task;
 use crate::{NetworkRecipe, NormalSettings, TrainError};
@@ -94,6 +94,15 @@ impl Task for NormalTask {
         let filled = fill(network, &mut collect(&stored.network));
         let network = filled.map_err(|reason| init_error(weights, reason))?;
         Ok(NormalTraining { network, auxiliary })
+    }
+
+    fn stored(&self, weights: &Weights, device: &Device) -> Result<NormalTraining, TrainError> {
+        let stored = weights.normal_network(device)?;
+        check_same(weights, stored.architecture == self.settings.architecture)?;
+        Ok(NormalTraining {
+            network: stored.network,
+            auxiliary: None,
+        })
     }
 
     fn append(&self, sample: &Sample, predicted: Option<&[Light]>, seed: u64, batch: &mut Batch) {

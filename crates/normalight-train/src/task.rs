@@ -26,6 +26,12 @@ pub trait Task: Clone + Send + Sync + 'static {
         device: &Device,
     ) -> Result<Self::Network, TrainError>;
 
+    /// The network of a weights file, for validation: layers without normalisation, and nothing that only helps training.
+    ///
+    /// # Errors
+    /// Another network or architecture than the recipe's.
+    fn stored(&self, weights: &Weights, device: &Device) -> Result<Self::Network, TrainError>;
+
     /// What the network is shown: whole objects or crops.
     const FRAMING: Framing;
 

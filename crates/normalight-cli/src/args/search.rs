@@ -1,5 +1,6 @@
 use crate::choices::{DeviceChoice, EqualChoice};
 use clap::{Args, Subcommand};
+use normalight_batch::Shard;
 use std::path::PathBuf;
 
 /// Searches for cells, or for whole networks.
@@ -52,6 +53,15 @@ pub(crate) struct SearchArgs {
     /// folder, as random-1.json and so on.
     #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) random: Option<u32>,
+    /// Whole networks: only the trainings of this round, from 1; the rounds before must be done.
+    ///
+    /// For several machines that share the folder, with --shard. At the end the command without --round
+    /// has nothing to train any more, and writes the results.
+    #[arg(long, value_name = "K", conflicts_with = "random")]
+    pub(crate) round: Option<usize>,
+    /// Of the round's networks, only every Nth, beginning with the Ith.
+    #[arg(long, value_name = "I/N", requires = "round", default_value_t = Shard::WHOLE)]
+    pub(crate) shard: Shard,
     /// Threads that make samples; default: one fewer than there are cores. The samples stay the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) threads: Option<u32>,

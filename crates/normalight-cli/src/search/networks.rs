@@ -6,7 +6,8 @@ use crate::{Outcome, device, exit, interrupt};
 use anyhow::{Result, bail};
 use normalight_run::RunState;
 use normalight_search::{
-    NetworkSearchEvent, NetworkSearchRecipe, NetworkSearchRun, search_networks,
+    NetworkSearchEvent, NetworkSearchRecipe, NetworkSearchRun, RoundPart, search_networks,
+    search_part,
 };
 
 /// Searches until the last training of the last round, or Ctrl-C; the same command goes on.
@@ -26,7 +27,7 @@ pub(super) fn run(args: &SearchArgs, mut recipe: NetworkSearchRecipe) -> Result<
         caller: exit::caller(),
     };
     let mut watch = Watch::new(args.quiet);
-    let result = search_networks(&run, &device, |event| {
+    let observe = |event: NetworkSearchEvent| {
         match event {
             NetworkSearchEvent::Note(text) => watch.tell(&text),
             NetworkSearchEvent::Begins { name, recipe } => watch.begin(name, recipe),
@@ -34,7 +35,14 @@ pub(super) fn run(args: &SearchArgs, mut recipe: NetworkSearchRecipe) -> Result<
             NetworkSearchEvent::Ends(result) => watch.end(result.degrees, ""),
         }
         interrupt::answer()
-    })?;
+    };
+    let result = match args.round {
+        None => search_networks(&run, &device, observe)?,
+        Some(round) => {
+            let (index, of) = (args.shard.index(), args.shard.of());
+            search_part(&run, RoundPart { round, index, of }, &device, observe)?
+        }
+    };
     drop(watch);
     if !args.quiet {
         print(&result.to_text())?;

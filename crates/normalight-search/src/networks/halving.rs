@@ -1,25 +1,15 @@
 //! Successive halving: candidates trained for a short schedule, the better ones for longer ones.
-use super::recipe::{Goal, IMAGES, NetworkSearchRecipe};
-use super::result::{CandidateResult, NetworkSearchResult, Rung};
-use super::space::Candidate;
-use crate::folder::Folder;
-use burn::tensor::{Device, Distribution, Tensor};
+use super::candidates::Search;
+use super::recipe::NetworkSearchRecipe;
+use super::result::{CandidateResult, NetworkSearchResult};
+use burn::tensor::Device;
 use normalight_io::write_files;
-use normalight_model::{LightNetwork, NormalNetwork};
-use normalight_run::{Caller, RunError, RunEvent, RunState, sha256};
-use normalight_train::{NetworkRecipe, TrainError, TrainRecipe, TrainRun, train};
-use std::collections::BTreeMap;
+use normalight_run::{Caller, RunEvent, RunState};
+use normalight_train::{TrainError, TrainRecipe};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::time::Instant;
 
 const RESULT: &str = "search.json";
-const TIMES: &str = "times.json";
-/// Side in pixels of the pictures that the time of a normal network is measured with.
-const SIDE: usize = 128;
-/// Measurements, of which the shortest counts, in turns over the candidates.
-const TIMED: usize = 5;
-
 /// A search of whole networks: one folder.
 #[derive(Debug, Clone)]
 pub struct NetworkSearchRun {
@@ -50,7 +40,7 @@ pub enum NetworkSearchEvent<'a> {
 }
 
 /// What is told, and whether it goes on; not generic: else every program that searches would compile all of it again.
-type Observe<'a> = &'a mut dyn FnMut(NetworkSearchEvent) -> ControlFlow<()>;
+pub(super) type Observe<'a> = &'a mut dyn FnMut(NetworkSearchEvent) -> ControlFlow<()>;
 
 /// Trains random networks of the recipe's space for its steps, keeps those that are best by error and cost, trains them
 /// from the start for more, and so on; `observe` may stop it at any event. Asked for again, it goes on where it was.
@@ -77,56 +67,17 @@ fn halve(
     device: &Device,
     observe: Observe<'_>,
 ) -> Result<NetworkSearchResult, TrainError> {
-    let recipe = &run.recipe;
-    recipe.validate()?;
-    let candidates = recipe.candidates()?;
-    let mut free = recipe.clone();
-    // It changes no result.
-    free.training.loader_threads = None;
-    let common = free.to_toml()?;
-    let folder = Folder::claim(&run.folder, &common)?;
-    let mut result = NetworkSearchResult {
-        state: RunState::Running,
-        network: recipe.training.network.kind(),
-        goal: recipe.search.goal,
-        recipe_sha256: sha256(common.as_bytes()),
-        rounds: Vec::new(),
-    };
-    let times = match recipe.search.goal {
-        Goal::Time => match times(&folder, &candidates, recipe, device, observe)? {
-            Some(times) => Some(times),
-            None => {
-                result.state = RunState::Interrupted;
-                return Ok(result);
-            }
-        },
-        Goal::MultiplyAdds | Goal::Parameters => None,
-    };
-    let mut left: Vec<usize> = (1..=candidates.len()).collect();
-    for round in 0..=recipe.search.keep.len() {
-        result.rounds.push(Rung {
-            steps: recipe.steps(round),
-            candidates: Vec::new(),
-            tau: None,
-        });
+    let mut search = Search::open(run)?;
+    let mut result = search.begun();
+    if search.measure(device, observe)?.is_break() {
+        result.state = RunState::Interrupted;
+        return Ok(result);
+    }
+    let mut left = search.all();
+    for round in 0..=run.recipe.search.keep.len() {
+        result.rounds.push(search.rung(round));
         for &number in &left {
-            let candidate = &candidates[number - 1];
-            let mut training = candidate.trained_as(&recipe.training)?;
-            training.steps = recipe.steps(round);
-            let times = times.as_ref().and_then(|times| times.get(&number));
-            let milliseconds = times.map(|&microseconds| microseconds as f64 / 1000.0);
-            let candidate = CandidateResult {
-                number,
-                parameters: training.parameters(),
-                multiply_adds: recipe.multiply_adds(&training),
-                milliseconds,
-                degrees: None,
-                hours: None,
-                on_front: false,
-                candidate: candidate.clone(),
-            };
-            let Some(candidate) = trained(run, device, (round, candidate), training, observe)?
-            else {
+            let Some(candidate) = search.trained(round, number, device, observe)? else {
                 result.state = RunState::Interrupted;
                 return Ok(result);
             };
@@ -134,58 +85,16 @@ fn halve(
                 rung.candidates.push(candidate);
             }
             result.summarise();
-            folder.write_json(RESULT, &result)?;
+            search.folder.write_json(RESULT, &result)?;
         }
-        if let Some(&count) = recipe.search.keep.get(round) {
+        if let Some(&count) = run.recipe.search.keep.get(round) {
             left = result.kept(count);
         }
     }
     result.state = RunState::Finished;
     write_front(run, &result)?;
-    folder.write_json(RESULT, &result)?;
+    search.folder.write_json(RESULT, &result)?;
     Ok(result)
-}
-
-/// One candidate of a round; nothing when it was stopped.
-fn trained(
-    run: &NetworkSearchRun,
-    device: &Device,
-    (round, mut candidate): (usize, CandidateResult),
-    recipe: TrainRecipe,
-    observe: &mut dyn FnMut(NetworkSearchEvent) -> ControlFlow<()>,
-) -> Result<Option<CandidateResult>, TrainError> {
-    let name = format!("round {}, network {}", round + 1, candidate.number);
-    let begins = NetworkSearchEvent::Begins {
-        name: name.clone(),
-        recipe: &recipe,
-    };
-    if observe(begins).is_break() {
-        return Ok(None);
-    }
-    let run = TrainRun {
-        folder: run
-            .folder
-            .join(format!("round-{}/{}", round + 1, candidate.number)),
-        resume: true,
-        caller: run.caller.clone(),
-        recipe,
-    };
-    let ended = train(&run, device, |event| {
-        observe(NetworkSearchEvent::Training(event))
-    });
-    match ended {
-        Ok(summary) if summary.state == RunState::Finished => {
-            candidate.degrees = summary.best.as_ref().map(|best| f64::from(best.degrees));
-            candidate.hours = Some(summary.hours);
-        }
-        Ok(_) => return Ok(None),
-        Err(error @ TrainError::Run(RunError::Diverged { .. })) => {
-            let _ = observe(NetworkSearchEvent::Note(format!("{name}: {error}")));
-        }
-        Err(error) => return Err(error),
-    }
-    let _ = observe(NetworkSearchEvent::Ends(&candidate));
-    Ok(Some(candidate))
 }
 
 /// Recipes that train what the last round's front found.
@@ -203,75 +112,4 @@ fn write_front(run: &NetworkSearchRun, result: &NetworkSearchResult) -> Result<(
         ));
     }
     Ok(write_files(&run.folder, &files)?)
-}
-
-/// Microseconds of each candidate by its number: those that the folder keeps, or new ones; nothing when it was stopped.
-fn times(
-    folder: &Folder,
-    candidates: &[Candidate],
-    recipe: &NetworkSearchRecipe,
-    device: &Device,
-    observe: &mut dyn FnMut(NetworkSearchEvent) -> ControlFlow<()>,
-) -> Result<Option<BTreeMap<usize, u64>>, TrainError> {
-    if let Some(kept) = folder.read_json::<BTreeMap<usize, u64>>(TIMES)? {
-        return Ok(Some(kept));
-    }
-    let mut shortest: BTreeMap<usize, u64> = BTreeMap::new();
-    for turn in 1..=TIMED {
-        let note = format!(
-            "measures the time of {} networks, {turn} of {TIMED}",
-            candidates.len()
-        );
-        if observe(NetworkSearchEvent::Note(note)).is_break() {
-            return Ok(None);
-        }
-        for (place, candidate) in candidates.iter().enumerate() {
-            let took = microseconds(&candidate.trained_as(&recipe.training)?, device)?;
-            let best = shortest.entry(place + 1).or_insert(u64::MAX);
-            *best = (*best).min(took);
-        }
-    }
-    folder.write_json(TIMES, &shortest)?;
-    Ok(Some(shortest))
-}
-
-/// Microseconds of a network for ten images, as it is stored: random weights take as long as any.
-fn microseconds(recipe: &TrainRecipe, device: &Device) -> Result<u64, TrainError> {
-    let noise = |side: usize, channels: usize| {
-        Tensor::<4>::random(
-            [IMAGES, side, side, channels],
-            Distribution::Default,
-            device,
-        )
-    };
-    let timed = |work: &dyn Fn() -> f32| {
-        // Buffers are made the first time.
-        work();
-        let start = Instant::now();
-        let sum = work();
-        // Reading a number back waits for the device.
-        std::hint::black_box(sum);
-        start.elapsed().as_micros() as u64
-    };
-    Ok(match &recipe.network {
-        NetworkRecipe::Normal(settings) => {
-            let network = NormalNetwork::new(&settings.architecture, true, device)?;
-            let input = noise(SIDE, settings.architecture.input_channels());
-            timed(&|| {
-                network
-                    .regress(network.fuse(input.clone(), 1))
-                    .sum()
-                    .into_scalar()
-            })
-        }
-        NetworkRecipe::Light(settings) => {
-            let network = LightNetwork::new(&settings.architecture, true, device)?;
-            let input = noise(settings.architecture.input_size, 4);
-            timed(&|| {
-                let own = network.features(input.clone());
-                let fused = own.clone().max_dim(0).expand(own.dims());
-                network.classify(own, fused).sum().into_scalar()
-            })
-        }
-    })
 }

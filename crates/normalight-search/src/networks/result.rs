@@ -2,7 +2,7 @@
 use super::front::{is_on_front, kendall, preferred};
 use super::recipe::Goal;
 use super::space::Candidate;
-use normalight_run::RunState;
+use normalight_run::{RunState, Summary};
 use normalight_train::Network;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +24,8 @@ pub struct NetworkSearchResult {
 /// A round: what was left, trained for the same steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
+    /// Its number, from 1.
+    pub round: usize,
     /// Steps of each training.
     pub steps: usize,
     /// In the order of their numbers.
@@ -55,6 +57,12 @@ pub struct CandidateResult {
 }
 
 impl CandidateResult {
+    /// Error and hours of a training that is finished.
+    pub(super) fn take(&mut self, summary: &Summary) {
+        self.degrees = summary.best.as_ref().map(|best| f64::from(best.degrees));
+        self.hours = Some(summary.hours);
+    }
+
     /// Error and cost; not finite where there is none.
     fn point(&self, goal: Goal) -> [f64; 2] {
         let cost = match goal {
@@ -108,11 +116,11 @@ impl NetworkSearchResult {
     /// A table of each round for people, the smallest error first.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
-        for (round, rung) in self.rounds.iter().enumerate() {
+        for rung in &self.rounds {
             let tau = rung.tau.map_or(String::new(), |tau| {
                 format!(", ranks against the round before: tau {tau:.2}")
             });
-            text += &format!("round {}: {} steps{tau}\n", round + 1, rung.steps);
+            text += &format!("round {}: {} steps{tau}\n", rung.round, rung.steps);
             let mut candidates: Vec<&CandidateResult> = rung.candidates.iter().collect();
             candidates.sort_by(|a, b| a.point(self.goal)[0].total_cmp(&b.point(self.goal)[0]));
             for one in candidates {

@@ -5,7 +5,7 @@ use normalight_model::{LayerKind, Meeting};
 use normalight_run::{Caller, RunEvent, RunState};
 use normalight_search::{
     Candidate, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe, NetworkSearchResult,
-    NetworkSearchRun, search_networks,
+    NetworkSearchRun, RoundPart, search_networks, search_part,
 };
 use normalight_train::{TrainError, TrainRecipe};
 use std::collections::HashSet;
@@ -24,20 +24,24 @@ fn tiny(goal: &str) -> NetworkSearchRecipe {
     ))
 }
 
-/// Runs a search until the training step of that number.
-fn run(
-    folder: &Path,
-    recipe: &NetworkSearchRecipe,
-    stop_after: Option<usize>,
-) -> Result<(NetworkSearchResult, usize), TrainError> {
-    let run = NetworkSearchRun {
+fn search(folder: &Path, recipe: &NetworkSearchRecipe) -> NetworkSearchRun {
+    NetworkSearchRun {
         recipe: recipe.clone(),
         folder: folder.to_owned(),
         caller: Caller {
             command: "normalight search".to_owned(),
             exit_codes: None,
         },
-    };
+    }
+}
+
+/// Runs a search until the training step of that number.
+fn run(
+    folder: &Path,
+    recipe: &NetworkSearchRecipe,
+    stop_after: Option<usize>,
+) -> Result<(NetworkSearchResult, usize), TrainError> {
+    let run = search(folder, recipe);
     let mut steps = 0;
     let _alone = alone();
     let result = search_networks(&run, &Device::flex(), |event| {
@@ -153,12 +157,6 @@ fn a_search_goes_on_where_it_was_and_finds_the_same() {
         }
         assert_eq!(found.state, RunState::Interrupted);
     };
-    let errors = |result: &NetworkSearchResult| -> Vec<(usize, Option<f64>, bool)> {
-        let candidates = result.rounds.iter().flat_map(|rung| &rung.candidates);
-        candidates
-            .map(|one| (one.number, one.degrees, one.on_front))
-            .collect()
-    };
     assert_eq!(errors(&expected), errors(&found));
     assert!(
         errors(&found)
@@ -177,6 +175,58 @@ fn a_search_goes_on_where_it_was_and_finds_the_same() {
     other.training.seed = 9;
     let error = run(whole.path(), &other, None).unwrap_err().to_string();
     assert!(error.contains("seed"), "{error}");
+}
+
+/// Errors and fronts, without times.
+fn errors(result: &NetworkSearchResult) -> Vec<(usize, Option<f64>, bool)> {
+    let candidates = result.rounds.iter().flat_map(|rung| &rung.candidates);
+    candidates
+        .map(|one| (one.number, one.degrees, one.on_front))
+        .collect()
+}
+
+#[test]
+fn rounds_may_be_shared_by_several_machines() {
+    let (whole, parts) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let recipe = tiny("time");
+    let (expected, _) = run(whole.path(), &recipe, None).unwrap();
+    let part = |round, index| {
+        let _alone = alone();
+        let part = RoundPart {
+            round,
+            index,
+            of: 2,
+        };
+        let run = search(parts.path(), &recipe);
+        search_part(&run, part, &Device::flex(), |_| ControlFlow::Continue(()))
+    };
+    let numbers = |result: &NetworkSearchResult| -> Vec<usize> {
+        let candidates = result.rounds.iter().flat_map(|rung| &rung.candidates);
+        candidates.map(|one| one.number).collect()
+    };
+    let refused = |round, index| part(round, index).unwrap_err().to_string();
+    assert!(refused(2, 1).contains("waits for part 1 of round 1"));
+    assert!(refused(4, 1).contains("round is 4"));
+    assert!(refused(1, 3).contains("part is 3"));
+    assert_eq!(numbers(&part(1, 2).unwrap()), [2]);
+    // Measured times differ from one folder to the other, and with them who is left.
+    std::fs::copy(
+        whole.path().join("times.json"),
+        parts.path().join("times.json"),
+    )
+    .unwrap();
+    assert!(refused(2, 2).ends_with("waits for round 1, network 1, 3"));
+    assert_eq!(numbers(&part(1, 1).unwrap()), [1, 3]);
+    assert!(refused(3, 1).contains("waits for round 2, network"));
+    for (round, index) in [(2, 1), (2, 2), (3, 1), (3, 2)] {
+        let found = part(round, index).unwrap();
+        assert_eq!(
+            (found.state, found.rounds[0].round),
+            (RunState::Finished, round)
+        );
+    }
+    let (found, steps) = run(parts.path(), &recipe, None).unwrap();
+    assert_eq!((steps, errors(&found)), (0, errors(&expected)));
 }
 
 #[test]

@@ -1,8 +1,5 @@
 //! `search`: cells that are found, drawn at random and compared, and what is refused.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::*;
+use crate::common::*;
 use normalight_model::{Genotypes, paper_genotypes};
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -1,9 +1,5 @@
 //! Ctrl-C and SIGTERM end the work in good order; a killed training can be continued.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-#![cfg(unix)]
-mod common;
-
-use common::*;
+use crate::common::*;
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

@@ -1,8 +1,5 @@
 //! Whatever is wrong with the input: one line that names it, nothing written, earlier results kept.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::*;
+use crate::common::*;
 use image::{DynamicImage, Rgb32FImage, RgbImage};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,9 +1,6 @@
 //! The inputs beside the project through the whole command: normals as those of the plain stack; skipped where they are
 //! missing.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::*;
+use crate::common::*;
 use std::path::{Path, PathBuf};
 
 /// Largest mean angle between normals that are said to be the same, in degrees.

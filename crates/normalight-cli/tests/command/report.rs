@@ -1,9 +1,6 @@
 //! `evaluate --report`: every method, and a folder that keeps what was measured.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::benchmark::write_object;
-use common::*;
+use crate::common::benchmark::write_object;
+use crate::common::*;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -178,7 +175,7 @@ fn random_choices_and_photographs_that_are_left_out() {
         "--leave-out",
         "egg:1-2",
     ];
-    assert!(common::said(report(&object, &out, &more)).contains("     6 "));
+    assert!(crate::common::said(report(&object, &out, &more)).contains("     6 "));
 }
 
 #[test]
@@ -199,7 +196,7 @@ fn what_render_writes_is_a_benchmark() {
     ];
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_normalight"));
     command.args(render);
-    common::said(command);
+    crate::common::said(command);
     let out = place.path().join("report");
     let more = [
         "--methods",
@@ -207,7 +204,7 @@ fn what_render_writes_is_a_benchmark() {
         "--disturb",
         "encoded,shrunk:1",
     ];
-    let text = common::said(report(&set, &out, &more));
+    let text = crate::common::said(report(&set, &out, &more));
     assert!(
         text.contains("all images, encoded for viewing, taken as linear"),
         "{text}"

@@ -1,7 +1,5 @@
 //! `estimate` on a small rendered stack: what it leaves, and what its settings do.
-mod common;
-
-use common::*;
+use crate::common::*;
 use std::path::PathBuf;
 use std::process::Command;
 

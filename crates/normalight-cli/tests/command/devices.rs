@@ -1,7 +1,5 @@
 //! `estimate` on every device that this machine has, against each other.
-mod common;
-
-use common::*;
+use crate::common::*;
 use std::path::Path;
 use std::process::Command;
 

@@ -1,10 +1,7 @@
 //! `evaluate` on a benchmark made here: its figures against others computed from the files that
 //! `estimate` leaves.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::benchmark::write_object;
-use common::*;
+use crate::common::benchmark::write_object;
+use crate::common::*;
 
 /// Angle in degrees, by the arc cosine and in double precision: not as the library does it.
 fn degrees(a: [f32; 3], b: [f32; 3]) -> f64 {

@@ -1,5 +1,4 @@
 //! A small rendered stack in files, and the command under test.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 #![allow(dead_code)]
 pub mod benchmark;
 

@@ -1,8 +1,5 @@
 //! `train`: a run of two steps, its continuation, how it ends, and what it refuses.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::*;
+use crate::common::*;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,8 +1,5 @@
 //! A tree of captures through the command: results are those of `estimate`, and a second call does nothing.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::*;
+use crate::common::*;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,8 +1,5 @@
 //! `render` and `bench render`.
-#![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
-mod common;
-
-use common::*;
+use crate::common::*;
 use normalight_io::{PublishedEntry, PublishedSet};
 use normalight_synth::{Framing, Preset, Renderer};
 use std::collections::BTreeMap;
