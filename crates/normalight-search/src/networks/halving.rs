@@ -52,8 +52,9 @@ pub(super) type Observe<'a> = &'a mut dyn FnMut(NetworkSearchEvent) -> ControlFl
 /// `device` must be a plain one; gradients are switched on inside.
 ///
 /// # Errors
-/// Those of the recipe and of [`train`] but [`RunError::Diverged`], which is a result like another;
-/// [`RunError::OtherRecipe`] where the folder holds another search.
+/// Those of the recipe and of [`train`](normalight_train::train) but
+/// [`RunError::Diverged`](normalight_run::RunError::Diverged), which is a result like another;
+/// [`RunError::OtherRecipe`](normalight_run::RunError::OtherRecipe) where the folder holds another search.
 pub fn search_networks(
     run: &NetworkSearchRun,
     device: &Device,
