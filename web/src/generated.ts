@@ -50,6 +50,38 @@ export interface DepthSettings {
 }
 
 /**
+ * What was made of normals.
+ */
+export interface Derived {
+    /**
+     * Heights in pixels towards the camera, one a pixel; NaN outside the object. The mean of each connected part is zero.
+     */
+    depth: FloatMap;
+    /**
+     * Files to keep; `depth.json` is the last.
+     */
+    files: DerivedFile[];
+    /**
+     * What is known of them.
+     */
+    report: DerivedReport;
+}
+
+/**
+ * A file that was made of normals.
+ */
+export interface DerivedFile {
+    /**
+     * File name.
+     */
+    name: string;
+    /**
+     * Content.
+     */
+    bytes: Uint8Array<ArrayBuffer>;
+}
+
+/**
  * What is known of derived files: `depth.json`.
  */
 export interface DerivedReport {
@@ -201,11 +233,11 @@ export type FailureKind = "input" | "cancelled" | "device";
  */
 export interface FloatMap {
     /**
-     * Row after row, three numbers a pixel.
+     * Row after row, the channels of a pixel side by side.
      */
     data: Float32Array<ArrayBuffer>;
     /**
-     * `[height, width, 3]`.
+     * `[height, width, channels]`.
      */
     shape: [number, number, number];
 }
@@ -382,9 +414,49 @@ export type NameMatch = "full" | "path-end" | "stem" | "number" | "position";
 export type NormalFormat = "opengl" | "directx";
 
 /**
+ * Normals as pictures.
+ */
+export interface NormalPictures {
+    /**
+     * 8-bit RGBA, transparent outside the object; rows from the top.
+     */
+    rgba: Uint8Array<ArrayBuffer>;
+    /**
+     * `normals.png`, 16 bits.
+     */
+    png: Uint8Array<ArrayBuffer>;
+}
+
+/**
  * Something about the input that a person should know.
  */
 export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "decoded-by-browser"; format: string; files: string[] } | { kind: "from-archive"; archive: string; folder: string } | { kind: "one-in-each-folder" } | { kind: "pages-as-photographs"; file: string; pages: number } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "several-pages"; file: string; pages: number; page: number } | { kind: "animation"; file: string } | { kind: "several-layers"; file: string; taken: string; others: string[] } | { kind: "extra-channels"; file: string; channels: number } | { kind: "infinite"; file: string; samples: number } | { kind: "not-numbers"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string; taken: string } | { kind: "color-unstated"; taken: string; sure: number | undefined } | { kind: "color-mixed"; said: string[] } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number; sure: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "overexposed"; share: number } | { kind: "lamp-hardly-moved"; difference: number } | { kind: "room-lit"; file: string } | { kind: "ambient-left-out"; file: string } | { kind: "no-ambient" } | { kind: "ambient-brighter"; file: string; share: number } | { kind: "camera-moved"; files: string[]; pixels: number } | { kind: "unlike"; files: string[] } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-without-intensity"; file: string; found: boolean } | { kind: "lights-contradict"; file: string; axes: string | undefined } | { kind: "lights-as-angles"; file: string; unit: string };
+
+/**
+ * The pixels of an object.
+ */
+export interface ObjectMask {
+    /**
+     * In pixels.
+     */
+    width: number;
+    /**
+     * In pixels.
+     */
+    height: number;
+    /**
+     * 255 inside, 0 outside; rows from the top.
+     */
+    inside: Uint8Array<ArrayBuffer>;
+    /**
+     * Where it came from.
+     */
+    source: MaskOrigin;
+    /**
+     * The mask's file name, or the source in words.
+     */
+    words: string;
+}
 
 /**
  * What decided about the photographs and their order.

@@ -2,14 +2,21 @@ import { Connection, type Follow } from "./connection.js";
 import { NormalightError } from "./errors.js";
 import { Aggregate } from "./progress.js";
 import type { TaskName, Tasks } from "./protocol.js";
+import { derivedSettings, settingsOf } from "./settings.js";
 import type {
   ColorMode,
   CreateOptions,
+  Derived,
+  DeriveOptions,
   DeviceReport,
   Estimate,
   EstimateOptions,
+  NormalFormat,
+  NormalPictures,
+  ObjectMask,
   Plan,
   StackFile,
+  Surface,
   Thumbnail,
   UnpackedArchives,
 } from "./types.js";
@@ -53,25 +60,15 @@ export class Normalight {
    */
   estimate(files: Iterable<StackFile>, options: EstimateOptions = {}): Promise<Estimate> {
     const { mask = "auto", lights, signal, onProgress, onPlan } = options;
-    const { quality = "default", refit = true } = options;
-    const aggregate = new Aggregate(quality, refit && lights === undefined);
+    const settings = settingsOf(options);
+    const aggregate = new Aggregate(settings.quality, settings.refit && lights === undefined);
     return this.#run(
       "estimate",
       {
         files: [...files],
         mask: typeof mask === "string" ? undefined : mask,
         lights,
-        settings: {
-          color: options.color ?? "auto",
-          mask: mask === "none" ? "none" : "auto",
-          images: options.images,
-          lightAxes: options.lightAxes ?? "x-right,y-up,z-out",
-          align: options.align ?? false,
-          ambient: options.ambient ?? "none",
-          normalFormat: options.normalFormat ?? "opengl",
-          refit,
-          quality,
-        },
+        settings,
       },
       {
         signal,
@@ -81,6 +78,35 @@ export class Normalight {
         },
       },
     );
+  }
+
+  /**
+   * The mask that `estimate` would take of the same files and options, without estimating.
+   *
+   * @throws NormalightError, or the signal's reason when it was cancelled
+   */
+  mask(
+    files: Iterable<StackFile>,
+    options: Pick<EstimateOptions, "align" | "ambient" | "color" | "images" | "mask" | "signal"> = {},
+  ): Promise<ObjectMask> {
+    const { mask, signal } = options;
+    const file = typeof mask === "string" ? undefined : mask;
+    return this.#run("mask", { files: [...files], mask: file, settings: settingsOf(options) }, { signal });
+  }
+
+  /**
+   * Depth, meshes and maps of an estimate's normals, or of normals from elsewhere.
+   *
+   * @throws NormalightError for maps of the wrong shape or without an object
+   */
+  derive({ normalMap, albedoMap }: Surface, options: DeriveOptions = {}): Promise<Derived> {
+    const request = { normals: normalMap, albedo: albedoMap, settings: derivedSettings(options) };
+    return this.#run("derive", request, { signal: options.signal });
+  }
+
+  /** Normals as pictures, green up (`opengl`) or down (`directx`): `normals.png` and 8-bit RGBA. */
+  normalPictures({ normalMap }: Surface, format: NormalFormat): Promise<NormalPictures> {
+    return this.#run("pictures", { normals: normalMap, format });
   }
 
   /** Which of the files are the photographs, in which order, and which is the mask. */

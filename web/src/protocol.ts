@@ -1,10 +1,15 @@
-import type { FailureKind, Settings } from "./generated.js";
+import type { DerivedSettings, FailureKind, Settings } from "./generated.js";
 import type {
   ColorMode,
+  Derived,
   DeviceChoice,
   DeviceReport,
   Estimate,
+  FloatMap,
   InputPlan,
+  NormalFormat,
+  NormalPictures,
+  ObjectMask,
   Plan,
   StackFile,
   Stage,
@@ -18,6 +23,15 @@ export interface Tasks {
   plan: { request: { files: readonly StackFile[] }; response: Plan };
   unpack: { request: { files: readonly StackFile[] }; response: UnpackedArchives | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
+  mask: {
+    request: { files: readonly StackFile[]; mask: StackFile | undefined; settings: Settings };
+    response: ObjectMask;
+  };
+  derive: {
+    request: { normals: FloatMap; albedo: FloatMap | undefined; settings: DerivedSettings };
+    response: Derived;
+  };
+  pictures: { request: { normals: FloatMap; format: NormalFormat }; response: NormalPictures };
   estimate: {
     request: {
       files: readonly StackFile[];

@@ -1,4 +1,13 @@
-import type { ColorMode, InputPlan, NormalFormat, Quality, Stage } from "./generated.js";
+import type {
+  ColorMode,
+  FloatMap,
+  InputPlan,
+  MeshFileFormat,
+  NormalFormat,
+  Outside,
+  Quality,
+  Stage,
+} from "./generated.js";
 
 // What crosses into the module and back has one definition, in Rust; here is what only TypeScript knows.
 export type {
@@ -6,6 +15,9 @@ export type {
   ColorMode,
   ColorReason,
   Decoding,
+  Derived,
+  DerivedFile,
+  DerivedReport,
   Estimate,
   FloatMap,
   InputPlan,
@@ -15,12 +27,16 @@ export type {
   LightsDecision,
   MaskOrigin,
   MaskReport,
+  MeshFileFormat,
   NameMatch,
   NormalFormat,
+  NormalPictures,
   Notice,
+  ObjectMask,
   Order,
   OutputFile,
   OutputName,
+  Outside,
   Plan,
   Quality,
   Report,
@@ -113,6 +129,46 @@ export interface EstimateOptions {
   readonly onPlan?: (plan: InputPlan, words: readonly string[]) => void;
   /** Hears of progress. */
   readonly onProgress?: (progress: Progress) => void;
+}
+
+/** Normals, and perhaps colours, of which more is to be made: an `Estimate`, or maps from elsewhere. */
+export interface Surface {
+  /** Normals `[height, width, 3]`: x right, y up, z to the camera; zero outside the object. */
+  readonly normalMap: FloatMap;
+  /** Linear RGB of the same size. */
+  readonly albedoMap?: FloatMap;
+}
+
+/** What to make of normals; everything may be left out. The depth map is always made. */
+export interface DeriveOptions {
+  /** Heights as 16-bit PNG, and in pixels as TIFF and OpenEXR. */
+  readonly heights?: boolean;
+  /** A mesh in this format, with the colours of the albedo. */
+  readonly mesh?: MeshFileFormat;
+  /** About how many triangles it may have at most; a million when left out. */
+  readonly triangles?: number;
+  /** Maps for engines and painting: normals, albedo, height, curvature, ambient occlusion. */
+  readonly maps?: boolean | MapOptions;
+  /** Fades opposite edges of the maps into each other, so that they repeat without seams. */
+  readonly tileable?: boolean;
+  /** Takes the bow off nearly flat objects. */
+  readonly flatten?: boolean;
+  /** Focal length in pixels, for depth as a near camera saw it; without it the camera is far away. */
+  readonly focal?: number;
+  /** Cancels before the work begins; work under way is not waited for. */
+  readonly signal?: AbortSignal;
+}
+
+/** How maps are painted; everything may be left out. */
+export interface MapOptions {
+  /** Which way green points; `opengl` (up) when left out. */
+  readonly normalFormat?: NormalFormat;
+  /** Outside the object: `flat` (a surface that faces the camera) or `dilated` (the nearest pixel of the object). */
+  readonly outside?: Outside;
+  /** Adds the mask as transparency. */
+  readonly alpha?: boolean;
+  /** Bits of a channel of normals; 16 when left out. */
+  readonly bits?: 8 | 16;
 }
 
 /** How far a run is. */

@@ -53,6 +53,16 @@ async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<
       const { file, color, side } = message.request;
       return wasm.thumbnail(await read(file), color, side);
     }
+    case "mask": {
+      const { files, mask, settings } = message.request;
+      return wasm.objectMask(await readAll(files), mask && (await read(mask)), settings);
+    }
+    case "derive": {
+      const { normals, albedo, settings } = message.request;
+      return wasm.derive(normals, albedo, settings);
+    }
+    case "pictures":
+      return wasm.normalPictures(message.request.normals, message.request.format);
     case "estimate":
       return await estimate(message.request);
   }
@@ -74,11 +84,7 @@ async function create(wasm: Module, choice: DeviceChoice): Promise<DeviceReport>
 
 async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["estimate"]["response"]> {
   if (engine === undefined) throw new Error("no device was chosen");
-  const files: InputFile[] = [];
-  for (const file of request.files) {
-    files.push(await read(file));
-    if (cancelled) throw { kind: "cancelled", message: "cancelled" };
-  }
+  const files = await readAll(request.files);
   const mask = request.mask && (await read(request.mask));
   const lights = request.lights && (await read(request.lights));
   return await engine.estimate(files, mask, lights, request.settings, {
@@ -91,6 +97,15 @@ async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["e
       tell({ event: "plan", plan, words });
     },
   });
+}
+
+async function readAll(files: readonly StackFile[]): Promise<InputFile[]> {
+  const contents: InputFile[] = [];
+  for (const file of files) {
+    contents.push(await read(file));
+    if (cancelled) throw { kind: "cancelled", message: "cancelled" };
+  }
+  return contents;
 }
 
 async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks["unpack"]["response"]> {

@@ -72,10 +72,10 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
     let mut derived = None;
     if surface.wanted() {
         let albedo = Some(&estimate.albedo[..]);
-        let (more, known) = derived_files(&estimate.normals, albedo, &input.mask, surface)?;
+        let made = derived_files(&estimate.normals, albedo, &input.mask, surface)?;
         // The report stays the last file: where it is, the others are complete.
-        files.splice(files.len() - 1..files.len() - 1, more);
-        derived = Some(known);
+        files.splice(files.len() - 1..files.len() - 1, made.files);
+        derived = Some(made.report);
     }
     if interrupt::asked() {
         return Ok(Outcome::Interrupted);

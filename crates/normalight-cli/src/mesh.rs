@@ -5,7 +5,7 @@ use crate::{Outcome, outputs};
 use anyhow::Result;
 use normalight_core::Mask;
 use normalight_io::{
-    DerivedSettings, MeshFileFormat, OutputFolder, decode_mask, derived_files, read_named,
+    Derived, DerivedSettings, MeshFileFormat, OutputFolder, decode_mask, derived_files, read_named,
     read_normals,
 };
 
@@ -29,7 +29,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<Outcome> {
             ..settings
         };
     }
-    let (files, report) = derived_files(&normals, None, &mask, settings)?;
+    let Derived { files, report, .. } = derived_files(&normals, None, &mask, settings)?;
     folder.write(&files)?;
     if !args.quiet {
         print(&outputs::surface_summary(&report))?;

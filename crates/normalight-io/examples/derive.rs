@@ -1,7 +1,7 @@
 //! Depth, a mesh and maps of a normal map that was made anywhere:
 //! `cargo run --release -p normalight-io --example derive -- normals.png mask.png out [--flatten]`.
 use normalight_io::{
-    DerivedSettings, MapSettings, MeshFileFormat, NormalFormat, OutputFolder, decode_mask,
+    Derived, DerivedSettings, MapSettings, MeshFileFormat, NormalFormat, OutputFolder, decode_mask,
     derived_files, read_normals,
 };
 use std::path::Path;
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         maps: Some(MapSettings::default()),
         ..DerivedSettings::default()
     };
-    let (files, report) = derived_files(&normals, None, &mask, settings)?;
+    let Derived { files, report, .. } = derived_files(&normals, None, &mask, settings)?;
     OutputFolder::prepare(Path::new(out))?.write(&files)?;
     println!("{report:#?}");
     Ok(())

@@ -80,8 +80,16 @@ pub struct DerivedReport {
     pub mesh_step: Option<usize>,
 }
 
-/// Files (name, content), and what is known of them; `depth.json` is the last.
-pub type DerivedFiles = (Vec<(&'static str, Vec<u8>)>, DerivedReport);
+/// What was made of normals.
+#[derive(Debug, Clone)]
+pub struct Derived {
+    /// Name and content of every file; `depth.json` is the last.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// What is known of them.
+    pub report: DerivedReport,
+    /// The shape that they show, the bow taken off if that was asked for.
+    pub depth: DepthMap,
+}
 
 /// Derives all that is asked for.
 ///
@@ -96,7 +104,7 @@ pub fn derived_files(
     albedo: Option<&[f32]>,
     mask: &Mask,
     settings: DerivedSettings,
-) -> Result<DerivedFiles, IoError> {
+) -> Result<Derived, IoError> {
     check(mask, normals.width(), normals.height())?;
     let mut depth = integrate_normals(normals, mask, settings.depth)?;
     let mut flat = None;
@@ -142,7 +150,11 @@ pub fn derived_files(
         reason: error.to_string(),
     })?;
     files.push(("depth.json", json));
-    Ok((files, report))
+    Ok(Derived {
+        files,
+        report,
+        depth,
+    })
 }
 
 struct Surface<'a> {

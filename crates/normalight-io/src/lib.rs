@@ -80,7 +80,7 @@ pub use decode::{DecodedImage, decode_image};
 pub use depth_files::{
     curvature_png, height_exr, height_png, height_tiff, normals_exr, occlusion_png,
 };
-pub use derived_files::{DerivedFiles, DerivedReport, DerivedSettings, derived_files};
+pub use derived_files::{Derived, DerivedReport, DerivedSettings, derived_files};
 pub use error::IoError;
 pub use input::{AmbientChoice, MaskChoice, NamedBytes, ReadOptions, StackInput};
 pub use input_plan::{

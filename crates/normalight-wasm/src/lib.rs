@@ -4,10 +4,13 @@
 //! their types; nothing else should call it.
 
 mod callback;
+mod derived;
 mod engine;
 mod error;
 mod file;
 mod inspect;
+mod maps;
+mod mask;
 mod result;
 mod settings;
 mod stage;
@@ -15,9 +18,12 @@ mod start;
 mod unpack;
 
 pub use callback::ProgressCallback;
+pub use derived::{Derived, NormalPictures, derive, normal_pictures};
 pub use engine::Engine;
 pub use file::InputFile;
 pub use inspect::{Plan, Thumbnail, plan, thumbnail};
+pub use maps::FloatMap;
+pub use mask::{ObjectMask, object_mask};
 pub use result::Estimated;
 pub use settings::{MaskSetting, Settings};
 pub use start::start;

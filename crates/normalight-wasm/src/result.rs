@@ -1,8 +1,9 @@
 //! What an estimation hands to JavaScript: numbers to show, and the files of the command line.
 use crate::error::Failure;
 use crate::file::OutputFile;
-use js_sys::{Float32Array, Uint8Array};
-use normalight_core::MaskSource;
+use crate::maps::FloatMap;
+use crate::mask::MaskOrigin;
+use js_sys::Uint8Array;
 use normalight_io::{
     InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files,
 };
@@ -57,28 +58,6 @@ pub struct Estimated {
     files: Vec<OutputFile>,
 }
 
-/// Numbers with their shape, rows from the top.
-#[derive(Debug, Serialize, Tsify)]
-struct FloatMap {
-    /// Row after row, three numbers a pixel.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    data: Float32Array,
-    /// `[height, width, 3]`.
-    shape: [usize; 3],
-}
-
-impl FloatMap {
-    /// Three numbers a pixel, from the pixel's place.
-    fn new(width: usize, height: usize, pixel: impl Fn(usize) -> [f32; 3]) -> Self {
-        let values: Vec<[f32; 3]> = (0..width * height).map(pixel).collect();
-        Self {
-            data: Float32Array::from(values.as_flattened()),
-            shape: [height, width, 3],
-        }
-    }
-}
-
 /// The light of one photograph: a unit vector from the object to the light, x right, y up, z to the camera.
 #[derive(Debug, Serialize, Tsify)]
 #[tsify(rename = "Light")]
@@ -103,27 +82,6 @@ struct MaskReport {
     words: String,
     /// How many pixels it has.
     pixels: usize,
-}
-
-/// Where a mask came from: a file, transparency, a guess from the photographs, or nowhere: the whole frame.
-#[derive(Debug, Serialize, Tsify)]
-#[serde(rename_all = "lowercase")]
-enum MaskOrigin {
-    File,
-    Alpha,
-    Guessed,
-    None,
-}
-
-impl From<&MaskSource> for MaskOrigin {
-    fn from(source: &MaskSource) -> Self {
-        match source {
-            MaskSource::File(_) => Self::File,
-            MaskSource::Alpha => Self::Alpha,
-            MaskSource::Guessed => Self::Guessed,
-            MaskSource::WholeFrame => Self::None,
-        }
-    }
 }
 
 impl Estimated {

@@ -5,7 +5,7 @@ mod normals;
 
 use normalight_core::{DepthMap, DepthSettings, Mask, NormalMap, Vec3, integrate_normals};
 use normalight_io::{
-    ColorMode, DerivedReport, DerivedSettings, MapSettings, MeshFileFormat, curvature_png,
+    ColorMode, Derived, DerivedReport, DerivedSettings, MapSettings, MeshFileFormat, curvature_png,
     decode_image, derived_files, height_exr, height_png, height_tiff,
 };
 
@@ -102,8 +102,7 @@ fn everything_that_is_asked_for_and_nothing_else() {
     let derive = |settings| derived_files(&normals, Some(&albedo), &mask, settings).unwrap();
     let none = DerivedSettings::default();
     assert!(!none.wanted());
-    let (files, _) = derive(none);
-    assert_eq!(files.len(), 1);
+    assert_eq!(derive(none).files.len(), 1);
     let all = DerivedSettings {
         heights: true,
         flatten: true,
@@ -114,7 +113,13 @@ fn everything_that_is_asked_for_and_nothing_else() {
         ..none
     };
     assert!(all.wanted());
-    let (files, report) = derive(all);
+    let Derived {
+        files,
+        report,
+        depth,
+    } = derive(all);
+    let (low, high) = depth.range();
+    assert_eq!([low, high], report.range);
     let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
     let expected = [
         "height.png",
