@@ -1,10 +1,14 @@
-import { Connection, type Follow } from "./connection.js";
+import { browser } from "./browser.js";
+import { Connection, type Follow, type WorkerLike } from "./connection.js";
 import { NormalightError } from "./errors.js";
+import type { FetchModule } from "./load.js";
+import type { Platform } from "./platform.js";
 import { Aggregate } from "./progress.js";
 import type { TaskName, Tasks } from "./protocol.js";
 import type {
   ColorMode,
   CreateOptions,
+  DeviceChoice,
   DeviceReport,
   Estimate,
   EstimateOptions,
@@ -23,20 +27,31 @@ import type {
  * ```
  */
 export class Normalight {
+  /** What is done otherwise in Node.js. @internal */
+  protected static readonly platform: Platform = browser;
+
   readonly #options: CreateOptions;
+  readonly #platform: Platform;
   #connection: Connection | undefined;
   #device: DeviceReport | undefined;
   #queue: Promise<unknown> = Promise.resolve();
   #closed = false;
 
-  private constructor(options: CreateOptions) {
+  /** @internal */
+  protected constructor(options: CreateOptions, platform: Platform) {
     this.#options = options;
+    this.#platform = platform;
   }
 
-  /** Loads the module with its networks and starts the device. */
+  /**
+   * Loads the module with its networks and starts the device.
+   *
+   * @throws NormalightError, or the signal's reason when it was cancelled
+   */
   static async create(options: CreateOptions = {}): Promise<Normalight> {
-    const normalight = new Normalight(options);
-    await normalight.#open();
+    // biome-ignore lint/complexity/noThisInStatic: Node.js has a subclass with another platform
+    const normalight = new Normalight(options, this.platform);
+    await normalight.#open(options.signal);
     return normalight;
   }
 
@@ -128,34 +143,61 @@ export class Normalight {
   }
 
   /** The worker; a new one after a crash. */
-  async #open(): Promise<Connection> {
+  async #open(signal?: AbortSignal): Promise<Connection> {
     if (this.#closed) throw closed();
     if (this.#connection && !this.#connection.terminated) return this.#connection;
     const { device = "auto" } = this.#options;
     try {
-      return await this.#start(device);
+      return await this.#start(device, signal);
     } catch (error) {
       const broken = error instanceof NormalightError && error.kind === "crashed";
       if (!broken || device === "cpu" || this.#closed) throw error;
-      const connection = await this.#start("cpu");
+      const connection = await this.#start("cpu", signal);
       const notice = `WebGPU does not start (${error.message}), so the processor computes.`;
       this.#device = { ...this.device, notice };
       return connection;
     }
   }
 
-  async #start(device: "auto" | "gpu" | "cpu"): Promise<Connection> {
-    // A literal, so that bundlers find the worker and its parts.
-    const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
-    const connection = new Connection(worker);
-    this.#connection = connection;
-    this.#device = await connection.run(
-      "create",
-      { device },
-      { onEvent: (event) => event.event === "load" && this.#options.onLoad?.(event.fraction) },
+  async #start(device: DeviceChoice, signal?: AbortSignal): Promise<Connection> {
+    signal?.throwIfAborted();
+    const { onProgress, onLoad, wasmUrl, worker = true } = this.#options;
+    const connection = new Connection(
+      worker ? this.#platform.startWorker(this.#options) : await startHere(this.#platform.fetchModule),
+      this.#platform.advice(),
     );
-    return connection;
+    this.#connection = connection;
+    const stop = () => connection.terminate(closed());
+    // What loads hears nothing, and there is nothing yet that could be kept.
+    signal?.addEventListener("abort", stop, { once: true });
+    try {
+      this.#device = await connection.run(
+        "create",
+        { device, wasmUrl: wasmUrl && this.#platform.resolve(wasmUrl) },
+        {
+          onEvent(event) {
+            if (event.event !== "load") return;
+            onProgress?.({ bytes: event.bytes, fraction: event.fraction });
+            onLoad?.(event.fraction);
+          },
+        },
+      );
+      signal?.throwIfAborted();
+      return connection;
+    } catch (error) {
+      // Nobody else would end it: a failed `create` gives nothing that could be closed.
+      connection.terminate(closed());
+      signal?.throwIfAborted();
+      throw error;
+    } finally {
+      signal?.removeEventListener("abort", stop);
+    }
   }
+}
+
+/** A worker that is none: in a file of its own, because who has workers does not need it. */
+async function startHere(fetchModule: FetchModule): Promise<WorkerLike> {
+  return (await import("./here.js")).startHere(fetchModule);
 }
 
 function closed(): NormalightError {

@@ -5,6 +5,7 @@ import type {
   DeviceReport,
   Estimate,
   InputPlan,
+  LoadProgress,
   Plan,
   StackFile,
   Stage,
@@ -14,7 +15,7 @@ import type {
 
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
-  create: { request: { device: DeviceChoice }; response: DeviceReport };
+  create: { request: { device: DeviceChoice; wasmUrl: string | undefined }; response: DeviceReport };
   plan: { request: { files: readonly StackFile[] }; response: Plan };
   unpack: { request: { files: readonly StackFile[] }; response: UnpackedArchives | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
@@ -37,11 +38,12 @@ export type ToWorker =
   | { [T in TaskName]: { task: T; request: Tasks[T]["request"] } }[TaskName]
   | { task: "cancel" };
 
-/** From the worker: events while a task runs, its end, or that the module is beyond repair. */
+/** From the worker: the lock that it holds as long as it lives, events while a task runs, its end, or that the module is beyond repair. */
 export type FromWorker =
-  | { event: "load"; fraction: number }
+  | ({ event: "load" } & LoadProgress)
+  | { event: "alive"; lock: string }
   | { event: "progress"; stage: Stage; fraction: number }
   | { event: "plan"; plan: InputPlan; words: string[] }
   | { event: "done"; response: Tasks[TaskName]["response"] }
-  | { event: "failed"; kind: FailureKind; message: string }
+  | { event: "failed"; kind: FailureKind | "load"; message: string }
   | { event: "crashed"; message: string };

@@ -69,8 +69,37 @@ export interface DeviceReport {
 export interface CreateOptions {
   /** `auto` when left out. */
   readonly device?: DeviceChoice;
-  /** Hears how much of the module (networks included) has arrived, in 0..1. */
+  /** Hears how much of the module (networks included) has arrived. */
+  readonly onProgress?: (progress: LoadProgress) => void;
+  /**
+   * The same as a fraction alone, in 0..1.
+   *
+   * @deprecated `onProgress` tells more
+   */
   readonly onLoad?: (fraction: number) => void;
+  /** Where `normalight_bg.wasm` lies, if not where this package or the bundler has put it. */
+  readonly wasmUrl?: string | URL;
+  /**
+   * Where `browser-worker.js` lies with all its parts, if not where this package or the bundler has put it; from another
+   * server, too. Not in Node.js.
+   */
+  readonly workerUrl?: string | URL;
+  /**
+   * Whether to compute in a worker, which is so when left out. `false` computes on the calling thread, which then stands
+   * still for some tenths of a second again and again: for surroundings without workers. There all estimators share one
+   * module, which stays in memory after `close()` and cannot start anew after a crash.
+   */
+  readonly worker?: boolean;
+  /** Stops the loading: the promise then rejects with the signal's reason. */
+  readonly signal?: AbortSignal;
+}
+
+/** How much of the module has arrived. */
+export interface LoadProgress {
+  /** In bytes, unpacked. */
+  readonly bytes: number;
+  /** In 0..1; 0 until the end where the server does not say how much there is. */
+  readonly fraction: number;
 }
 
 /** How to estimate; everything may be left out. */
