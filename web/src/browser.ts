@@ -9,6 +9,7 @@ const BUNDLED_BY_VITE = /\/\.vite\/deps\//;
 export const browser: Platform = {
   startWorker,
   advice,
+  sendsFiles: true,
   resolve: (url) => new URL(url, globalThis.document?.baseURI ?? globalThis.location?.href).href,
   fetchModule: (url) => fetch(url),
 };

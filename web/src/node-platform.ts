@@ -11,6 +11,8 @@ export const node: Platform = {
   startWorker,
   advice: () =>
     'Where a bundler has moved this package, it must leave it alone: `serverExternalPackages: ["normalight"]` in next.config.',
+  // A file is another thing on the other side of a thread.
+  sendsFiles: false,
   resolve: (url) => (/^[a-z]{2,}:/i.test(String(url)) ? String(url) : pathToFileURL(String(url)).href),
   fetchModule,
 };

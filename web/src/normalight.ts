@@ -5,6 +5,7 @@ import type { FetchModule } from "./load.js";
 import type { Platform } from "./platform.js";
 import { Aggregate } from "./progress.js";
 import type { TaskName, Tasks } from "./protocol.js";
+import { lightsFile, stackFile, stackFiles } from "./sources.js";
 import type {
   ColorMode,
   CreateOptions,
@@ -12,6 +13,7 @@ import type {
   DeviceReport,
   Estimate,
   EstimateOptions,
+  ImageSource,
   Plan,
   StackFile,
   Thumbnail,
@@ -66,16 +68,17 @@ export class Normalight {
    *
    * @throws NormalightError, or the signal's reason when it was cancelled
    */
-  estimate(files: Iterable<StackFile>, options: EstimateOptions = {}): Promise<Estimate> {
+  estimate(images: Iterable<ImageSource>, options: EstimateOptions = {}): Promise<Estimate> {
     const { mask = "auto", lights, signal, onProgress, onPlan } = options;
+    const { sendsFiles } = this.#platform;
     const { quality = "default", refit = true } = options;
     const aggregate = new Aggregate(quality, refit && lights === undefined);
     return this.#run(
       "estimate",
-      {
-        files: [...files],
-        mask: typeof mask === "string" ? undefined : mask,
-        lights,
+      async () => ({
+        files: await stackFiles(images, sendsFiles),
+        mask: typeof mask === "string" ? undefined : await stackFile(mask, "mask", sendsFiles),
+        lights: lights === undefined ? undefined : await lightsFile(lights, sendsFiles),
         settings: {
           color: options.color ?? "auto",
           mask: mask === "none" ? "none" : "auto",
@@ -87,7 +90,7 @@ export class Normalight {
           refit,
           quality,
         },
-      },
+      }),
       {
         signal,
         onEvent(event) {
@@ -99,8 +102,8 @@ export class Normalight {
   }
 
   /** Which of the files are the photographs, in which order, and which is the mask. */
-  plan(files: Iterable<StackFile>): Promise<Plan> {
-    return this.#run("plan", { files: [...files] });
+  plan(files: Iterable<ImageSource>): Promise<Plan> {
+    return this.#run("plan", () => this.#files(files));
   }
 
   /**
@@ -109,16 +112,18 @@ export class Normalight {
    *
    * @throws NormalightError for a damaged or refused archive
    */
-  unpack(files: Iterable<StackFile>): Promise<UnpackedArchives | undefined> {
-    return this.#run("unpack", { files: [...files] });
+  unpack(files: Iterable<ImageSource>): Promise<UnpackedArchives | undefined> {
+    return this.#run("unpack", () => this.#files(files));
   }
 
   /** A photograph with its longer side brought down to `side` pixels; formats that browsers cannot show work too. */
   thumbnail(
-    file: StackFile,
+    image: ImageSource,
     { color = "auto", side = 160, signal }: { color?: ColorMode; side?: number; signal?: AbortSignal } = {},
   ): Promise<Thumbnail> {
-    return this.#run("thumbnail", { file, color, side }, { signal });
+    const { sendsFiles } = this.#platform;
+    const prepare = async () => ({ file: await stackFile(image, "image", sendsFiles), color, side });
+    return this.#run("thumbnail", prepare, { signal });
   }
 
   /** Ends the worker and all calls; the object is of no use any more. */
@@ -127,15 +132,25 @@ export class Normalight {
     this.#connection?.terminate(closed());
   }
 
+  async #files(files: Iterable<ImageSource>): Promise<{ files: StackFile[] }> {
+    return { files: await stackFiles(files, this.#platform.sendsFiles) };
+  }
+
+  /** Does a task when those before have ended; its request is made at once, because what it holds may change. */
   async #run<T extends TaskName>(
     task: T,
-    request: Tasks[T]["request"],
+    prepare: () => Promise<Tasks[T]["request"]>,
     follow: Follow = {},
   ): Promise<Tasks[T]["response"]> {
+    if (this.#closed) throw closed();
+    const request = prepare();
+    // It is looked at later; until then a failure is nobody's.
+    request.catch(() => undefined);
     const turn = this.#queue.then(async () => {
       follow.signal?.throwIfAborted();
-      const connection = await this.#open();
-      return await connection.run(task, request, follow);
+      const prepared = await request;
+      const connection = await this.#open(follow.signal);
+      return await connection.run(task, prepared, follow);
     });
     // A call that fails must not keep the next from its turn.
     this.#queue = turn.catch(() => undefined);

@@ -8,6 +8,8 @@ export interface Platform {
   startWorker(options: CreateOptions): WorkerLike;
   /** What helps where a worker does not start. */
   advice(): string;
+  /** Whether a worker here understands the browser's files. */
+  readonly sendsFiles: boolean;
   /** An absolute address. */
   resolve(url: string | URL): string;
   /** Fetches the module for who computes without a worker. */
