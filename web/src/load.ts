@@ -50,7 +50,12 @@ async function start(
     if (!response.ok || response.body === null) {
       throw new Error(`the server answers ${response.status} ${response.statusText}`.trim());
     }
-    await init({ module_or_path: counted(response, response.body, onLoad) });
+    const module = await WebAssembly.compileStreaming(counted(response, response.body, onLoad));
+    // Before it is taken: a module cannot be exchanged for another.
+    if (!WebAssembly.Module.exports(module).some(({ name }) => name === "start")) {
+      throw new WebAssembly.LinkError("it has no start");
+    }
+    await init({ module_or_path: module });
   } catch (error) {
     throw { kind: "load", message: `${address} cannot be loaded: ${reason(error)}` };
   }
