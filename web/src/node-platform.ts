@@ -28,7 +28,8 @@ export async function fetchModule(url: string): Promise<Response> {
 
 /** A thread, as a browser's worker is spoken to. */
 function startWorker(): WorkerLike {
-  const thread = new Worker(new URL("./node-worker.js", import.meta.url));
+  // The program's own flags, of loaders or how it was given, are none of this thread's.
+  const thread = new Worker(new URL("./node-worker.js", import.meta.url), { execArgv: [] });
   const worker: WorkerLike = {
     onmessage: null,
     onerror: null,

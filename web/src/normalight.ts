@@ -112,8 +112,15 @@ export class Normalight {
    *
    * @throws NormalightError for a damaged or refused archive
    */
-  unpack(files: Iterable<ImageSource>): Promise<UnpackedArchives | undefined> {
-    return this.#run("unpack", () => this.#files(files));
+  async unpack(files: Iterable<ImageSource>): Promise<UnpackedArchives | undefined> {
+    const unpacked = await this.#run("unpack", () => this.#files(files));
+    if (unpacked === undefined) return undefined;
+    const { archives, names } = unpacked;
+    const named = (file: Blob, index: number) => new File([file], names[index] ?? "");
+    return {
+      archives,
+      files: unpacked.files.map((file, index) => (file instanceof File ? file : named(file, index))),
+    };
   }
 
   /** A photograph with its longer side brought down to `side` pixels; formats that browsers cannot show work too. */

@@ -13,11 +13,16 @@ import type {
   UnpackedArchives,
 } from "./types.js";
 
+/** Between threads of Node.js files lose their names. */
+export interface Unpacked extends UnpackedArchives {
+  readonly names: readonly string[];
+}
+
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
   create: { request: { device: DeviceChoice; wasmUrl: string | undefined }; response: DeviceReport };
   plan: { request: { files: readonly StackFile[] }; response: Plan };
-  unpack: { request: { files: readonly StackFile[] }; response: UnpackedArchives | undefined };
+  unpack: { request: { files: readonly StackFile[] }; response: Unpacked | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
   estimate: {
     request: {

@@ -169,7 +169,8 @@ async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks[
     }
     archives.push(file.name);
   }
-  return archives.length > 0 ? { files: unpacked, archives } : undefined;
+  const names = unpacked.map(({ name }) => name);
+  return archives.length > 0 ? { files: unpacked, names, archives } : undefined;
 }
 
 /** The module throws `{ kind, message }`; everything else is a surprise. */
