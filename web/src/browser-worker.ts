@@ -16,7 +16,7 @@ const served = serve(
     postMessage: (message, transfer) => self.postMessage(message, transfer),
     hear: (listener) => self.addEventListener("message", ({ data }) => listener(data)),
   },
-  (url) => fetch(url),
+  (url, fresh) => fetch(url, { cache: fresh ? "no-store" : "default" }),
 );
 
 // Calls into the module that were under way when it broke down never end by themselves.

@@ -4,8 +4,8 @@ import type { LoadProgress } from "./types.js";
 /** The module's functions. */
 export type Module = typeof wasm;
 
-/** Fetches the module; where it lies is an absolute address. */
-export type FetchModule = (url: string) => Promise<Response>;
+/** Fetches the module from an address; past every cache when that was asked for. */
+export type FetchModule = (url: string, fresh: boolean) => Promise<Response>;
 
 /** The module of this thread, as soon as it was asked for. */
 let loaded: Promise<void> | undefined;
@@ -46,11 +46,7 @@ async function start(
   // A literal, so that bundlers find the module.
   const address = url ?? new URL("../wasm/normalight_bg.wasm", import.meta.url).href;
   try {
-    const response = await fetchModule(address);
-    if (!response.ok || response.body === null) {
-      throw new Error(`the server answers ${response.status} ${response.statusText}`.trim());
-    }
-    const module = await WebAssembly.compileStreaming(counted(response, response.body, onLoad));
+    const module = await compile(fetchModule, address, onLoad);
     // Before it is taken: a module cannot be exchanged for another.
     if (!WebAssembly.Module.exports(module).some(({ name }) => name === "start")) {
       throw new WebAssembly.LinkError("it has no start");
@@ -63,6 +59,30 @@ async function start(
     broken = message;
     for (const listener of panicListeners) listener(message);
   });
+}
+
+/**
+ * The module, compiled while it arrives; fetched twice if need be, because a cache may hold half of it, and Chromium's fails
+ * when two ask at once for more than it takes.
+ */
+async function compile(
+  fetchModule: FetchModule,
+  address: string,
+  onLoad: (progress: LoadProgress) => void,
+): Promise<WebAssembly.Module> {
+  const attempt = async (fresh: boolean) => {
+    const response = await fetchModule(address, fresh);
+    if (!response.ok || response.body === null) {
+      throw new Error(`the server answers ${response.status} ${response.statusText}`.trim());
+    }
+    return await WebAssembly.compileStreaming(counted(response, response.body, onLoad));
+  };
+  try {
+    return await attempt(false);
+  } catch (error) {
+    if (!(error instanceof TypeError || error instanceof WebAssembly.CompileError)) throw error;
+    return await attempt(true);
+  }
 }
 
 /** What went wrong, in words rather than in those of a compiler. */

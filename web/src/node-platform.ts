@@ -17,7 +17,7 @@ export const node: Platform = {
   fetchModule,
 };
 
-/** A module from the disk or a server. */
+/** A module from the disk or a server, between which and us there is no cache. */
 export async function fetchModule(url: string): Promise<Response> {
   // Node.js 20 can do what the module needs, but does not yet do so unasked.
   if (process.versions.node.startsWith("20.")) setFlagsFromString("--experimental-wasm-relaxed-simd");
