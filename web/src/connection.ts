@@ -18,20 +18,32 @@ interface Pending extends Follow {
 }
 
 /** What is used of a worker. */
-export type WorkerLike = Pick<Worker, "postMessage" | "terminate" | "onmessage" | "onerror">;
+export interface WorkerLike {
+  postMessage(message: ToWorker): void;
+  terminate(): void;
+  // Written as methods, because a browser's own handlers ask for more than what is used here.
+  onmessage: { call(event: { data: FromWorker }): void }["call"] | null;
+  onerror: { call(event: { message?: string; preventDefault?(): void }): void }["call"] | null;
+}
 
 /** One worker, which does one task at a time, until it is terminated. */
 export class Connection {
   readonly #worker: WorkerLike;
   #pending: Pending | undefined;
   #terminated: NormalightError | undefined;
+  /** Whether the worker has ever said anything. */
+  #heard = false;
 
-  constructor(worker: WorkerLike) {
+  /** @param advice what helps where a worker never says anything */
+  constructor(worker: WorkerLike, advice = "") {
     this.#worker = worker;
-    worker.onmessage = (event: MessageEvent<FromWorker>) => this.#hear(event.data);
+    worker.onmessage = (event) => this.#hear(event.data);
     worker.onerror = (event) => {
       event.preventDefault?.();
-      this.terminate(crash(event.message ?? "the worker does not start"));
+      const reason = event.message;
+      const start = () =>
+        new NormalightError("load", `The worker does not start${reason ? `: ${reason}` : ""}. ${advice}`);
+      this.terminate(this.#heard ? crash(reason ?? "the worker fails") : start());
     };
   }
 
@@ -81,7 +93,11 @@ export class Connection {
 
   #hear(message: FromWorker): void {
     const pending = this.#pending;
+    this.#heard = true;
     switch (message.event) {
+      case "alive":
+        void this.#watch(message.lock);
+        break;
       case "load":
       case "progress":
       case "plan":
@@ -91,13 +107,18 @@ export class Connection {
         pending?.resolve(message.response);
         break;
       case "failed": {
-        const kind = message.kind === "cancelled" ? "crashed" : message.kind;
-        pending?.reject(new NormalightError(kind, message.message));
+        const code = message.kind === "cancelled" ? "crashed" : message.kind;
+        pending?.reject(new NormalightError(code, message.message));
         break;
       }
       case "crashed":
         this.terminate(crash(message.message));
     }
+  }
+
+  /** Waits for the lock that the worker holds as long as it lives. */
+  async #watch(lock: string): Promise<void> {
+    await globalThis.navigator.locks.request(lock, () => this.terminate(crash("the worker ended by itself")));
   }
 }
 

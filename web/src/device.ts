@@ -15,7 +15,7 @@ export function cpu(notice?: string): DeviceReport {
 export async function chooseDevice(choice: DeviceChoice, gpu: GPU | undefined): Promise<DeviceReport> {
   if (choice === "cpu") return cpu();
   if (gpu === undefined) {
-    return cpu("This browser offers no WebGPU to this page, so the processor computes.");
+    return cpu("There is no WebGPU here, so the processor computes.");
   }
   let adapter: GPUAdapter | null;
   try {

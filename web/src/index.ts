@@ -3,6 +3,6 @@
  *
  * @packageDocumentation
  */
-export { type ErrorKind, NormalightError } from "./errors.js";
+export { type ErrorCode, type ErrorKind, NormalightError } from "./errors.js";
 export { Normalight } from "./normalight.js";
 export * from "./types.js";

@@ -1,16 +1,22 @@
-import { Connection, type Follow } from "./connection.js";
+import { browser } from "./browser.js";
+import { Connection, type Follow, type WorkerLike } from "./connection.js";
 import { NormalightError } from "./errors.js";
+import type { FetchModule } from "./load.js";
+import type { Platform } from "./platform.js";
 import { Aggregate } from "./progress.js";
 import type { TaskName, Tasks } from "./protocol.js";
 import { derivedSettings, settingsOf } from "./settings.js";
+import { lightsFile, stackFile, stackFiles } from "./sources.js";
 import type {
   ColorMode,
   CreateOptions,
   Derived,
   DeriveOptions,
+  DeviceChoice,
   DeviceReport,
   Estimate,
   EstimateOptions,
+  ImageSource,
   NormalFormat,
   NormalPictures,
   ObjectMask,
@@ -30,20 +36,31 @@ import type {
  * ```
  */
 export class Normalight {
+  /** What is done otherwise in Node.js. @internal */
+  protected static readonly platform: Platform = browser;
+
   readonly #options: CreateOptions;
+  readonly #platform: Platform;
   #connection: Connection | undefined;
   #device: DeviceReport | undefined;
   #queue: Promise<unknown> = Promise.resolve();
   #closed = false;
 
-  private constructor(options: CreateOptions) {
+  /** @internal */
+  protected constructor(options: CreateOptions, platform: Platform) {
     this.#options = options;
+    this.#platform = platform;
   }
 
-  /** Loads the module with its networks and starts the device. */
+  /**
+   * Loads the module with its networks and starts the device.
+   *
+   * @throws NormalightError, or the signal's reason when it was cancelled
+   */
   static async create(options: CreateOptions = {}): Promise<Normalight> {
-    const normalight = new Normalight(options);
-    await normalight.#open();
+    // biome-ignore lint/complexity/noThisInStatic: Node.js has a subclass with another platform
+    const normalight = new Normalight(options, this.platform);
+    await normalight.#open(options.signal);
     return normalight;
   }
 
@@ -58,18 +75,19 @@ export class Normalight {
    *
    * @throws NormalightError, or the signal's reason when it was cancelled
    */
-  estimate(files: Iterable<StackFile>, options: EstimateOptions = {}): Promise<Estimate> {
+  estimate(images: Iterable<ImageSource>, options: EstimateOptions = {}): Promise<Estimate> {
     const { mask = "auto", lights, signal, onProgress, onPlan } = options;
+    const { sendsFiles } = this.#platform;
     const settings = settingsOf(options);
     const aggregate = new Aggregate(settings.quality, settings.refit && lights === undefined);
     return this.#run(
       "estimate",
-      {
-        files: [...files],
-        mask: typeof mask === "string" ? undefined : mask,
-        lights,
+      async () => ({
+        files: await stackFiles(images, sendsFiles),
+        mask: typeof mask === "string" ? undefined : await stackFile(mask, "mask", sendsFiles),
+        lights: lights === undefined ? undefined : await lightsFile(lights, sendsFiles),
         settings,
-      },
+      }),
       {
         signal,
         onEvent(event) {
@@ -86,12 +104,20 @@ export class Normalight {
    * @throws NormalightError, or the signal's reason when it was cancelled
    */
   mask(
-    files: Iterable<StackFile>,
+    images: Iterable<ImageSource>,
     options: Pick<EstimateOptions, "align" | "ambient" | "color" | "images" | "mask" | "signal"> = {},
   ): Promise<ObjectMask> {
-    const { mask, signal } = options;
-    const file = typeof mask === "string" ? undefined : mask;
-    return this.#run("mask", { files: [...files], mask: file, settings: settingsOf(options) }, { signal });
+    const { mask = "auto", signal } = options;
+    const { sendsFiles } = this.#platform;
+    return this.#run(
+      "mask",
+      async () => ({
+        files: await stackFiles(images, sendsFiles),
+        mask: typeof mask === "string" ? undefined : await stackFile(mask, "mask", sendsFiles),
+        settings: settingsOf(options),
+      }),
+      { signal },
+    );
   }
 
   /**
@@ -101,17 +127,17 @@ export class Normalight {
    */
   derive({ normalMap, albedoMap }: Surface, options: DeriveOptions = {}): Promise<Derived> {
     const request = { normals: normalMap, albedo: albedoMap, settings: derivedSettings(options) };
-    return this.#run("derive", request, { signal: options.signal });
+    return this.#run("derive", async () => request, { signal: options.signal });
   }
 
   /** Normals as pictures, green up (`opengl`) or down (`directx`): `normals.png` and 8-bit RGBA. */
   normalPictures({ normalMap }: Surface, format: NormalFormat): Promise<NormalPictures> {
-    return this.#run("pictures", { normals: normalMap, format });
+    return this.#run("pictures", async () => ({ normals: normalMap, format }));
   }
 
   /** Which of the files are the photographs, in which order, and which is the mask. */
-  plan(files: Iterable<StackFile>): Promise<Plan> {
-    return this.#run("plan", { files: [...files] });
+  plan(files: Iterable<ImageSource>): Promise<Plan> {
+    return this.#run("plan", () => this.#files(files));
   }
 
   /**
@@ -120,16 +146,25 @@ export class Normalight {
    *
    * @throws NormalightError for a damaged or refused archive
    */
-  unpack(files: Iterable<StackFile>): Promise<UnpackedArchives | undefined> {
-    return this.#run("unpack", { files: [...files] });
+  async unpack(files: Iterable<ImageSource>): Promise<UnpackedArchives | undefined> {
+    const unpacked = await this.#run("unpack", () => this.#files(files));
+    if (unpacked === undefined) return undefined;
+    const { archives, names } = unpacked;
+    const named = (file: Blob, index: number) => new File([file], names[index] ?? "");
+    return {
+      archives,
+      files: unpacked.files.map((file, index) => (file instanceof File ? file : named(file, index))),
+    };
   }
 
   /** A photograph with its longer side brought down to `side` pixels; formats that browsers cannot show work too. */
   thumbnail(
-    file: StackFile,
+    image: ImageSource,
     { color = "auto", side = 160, signal }: { color?: ColorMode; side?: number; signal?: AbortSignal } = {},
   ): Promise<Thumbnail> {
-    return this.#run("thumbnail", { file, color, side }, { signal });
+    const { sendsFiles } = this.#platform;
+    const prepare = async () => ({ file: await stackFile(image, "image", sendsFiles), color, side });
+    return this.#run("thumbnail", prepare, { signal });
   }
 
   /** Ends the worker and all calls; the object is of no use any more. */
@@ -138,15 +173,25 @@ export class Normalight {
     this.#connection?.terminate(closed());
   }
 
+  async #files(files: Iterable<ImageSource>): Promise<{ files: StackFile[] }> {
+    return { files: await stackFiles(files, this.#platform.sendsFiles) };
+  }
+
+  /** Does a task when those before have ended; its request is made at once, because what it holds may change. */
   async #run<T extends TaskName>(
     task: T,
-    request: Tasks[T]["request"],
+    prepare: () => Promise<Tasks[T]["request"]>,
     follow: Follow = {},
   ): Promise<Tasks[T]["response"]> {
+    if (this.#closed) throw closed();
+    const request = prepare();
+    // It is looked at later; until then a failure is nobody's.
+    request.catch(() => undefined);
     const turn = this.#queue.then(async () => {
       follow.signal?.throwIfAborted();
-      const connection = await this.#open();
-      return await connection.run(task, request, follow);
+      const prepared = await request;
+      const connection = await this.#open(follow.signal);
+      return await connection.run(task, prepared, follow);
     });
     // A call that fails must not keep the next from its turn.
     this.#queue = turn.catch(() => undefined);
@@ -154,34 +199,61 @@ export class Normalight {
   }
 
   /** The worker; a new one after a crash. */
-  async #open(): Promise<Connection> {
+  async #open(signal?: AbortSignal): Promise<Connection> {
     if (this.#closed) throw closed();
     if (this.#connection && !this.#connection.terminated) return this.#connection;
     const { device = "auto" } = this.#options;
     try {
-      return await this.#start(device);
+      return await this.#start(device, signal);
     } catch (error) {
       const broken = error instanceof NormalightError && error.kind === "crashed";
       if (!broken || device === "cpu" || this.#closed) throw error;
-      const connection = await this.#start("cpu");
+      const connection = await this.#start("cpu", signal);
       const notice = `WebGPU does not start (${error.message}), so the processor computes.`;
       this.#device = { ...this.device, notice };
       return connection;
     }
   }
 
-  async #start(device: "auto" | "gpu" | "cpu"): Promise<Connection> {
-    // A literal, so that bundlers find the worker and its parts.
-    const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
-    const connection = new Connection(worker);
-    this.#connection = connection;
-    this.#device = await connection.run(
-      "create",
-      { device },
-      { onEvent: (event) => event.event === "load" && this.#options.onLoad?.(event.fraction) },
+  async #start(device: DeviceChoice, signal?: AbortSignal): Promise<Connection> {
+    signal?.throwIfAborted();
+    const { onProgress, onLoad, wasmUrl, worker = true } = this.#options;
+    const connection = new Connection(
+      worker ? this.#platform.startWorker(this.#options) : await startHere(this.#platform.fetchModule),
+      this.#platform.advice(),
     );
-    return connection;
+    this.#connection = connection;
+    const stop = () => connection.terminate(closed());
+    // What loads hears nothing, and there is nothing yet that could be kept.
+    signal?.addEventListener("abort", stop, { once: true });
+    try {
+      this.#device = await connection.run(
+        "create",
+        { device, wasmUrl: wasmUrl && this.#platform.resolve(wasmUrl) },
+        {
+          onEvent(event) {
+            if (event.event !== "load") return;
+            onProgress?.({ bytes: event.bytes, fraction: event.fraction });
+            onLoad?.(event.fraction);
+          },
+        },
+      );
+      signal?.throwIfAborted();
+      return connection;
+    } catch (error) {
+      // Nobody else would end it: a failed `create` gives nothing that could be closed.
+      connection.terminate(closed());
+      signal?.throwIfAborted();
+      throw error;
+    } finally {
+      signal?.removeEventListener("abort", stop);
+    }
   }
+}
+
+/** A worker that is none: in a file of its own, because who has workers does not need it. */
+async function startHere(fetchModule: FetchModule): Promise<WorkerLike> {
+  return (await import("./here.js")).startHere(fetchModule);
 }
 
 function closed(): NormalightError {

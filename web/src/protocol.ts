@@ -7,6 +7,7 @@ import type {
   Estimate,
   FloatMap,
   InputPlan,
+  LoadProgress,
   NormalFormat,
   NormalPictures,
   ObjectMask,
@@ -17,11 +18,16 @@ import type {
   UnpackedArchives,
 } from "./types.js";
 
+/** Between threads of Node.js files lose their names. */
+export interface Unpacked extends UnpackedArchives {
+  readonly names: readonly string[];
+}
+
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
-  create: { request: { device: DeviceChoice }; response: DeviceReport };
+  create: { request: { device: DeviceChoice; wasmUrl: string | undefined }; response: DeviceReport };
   plan: { request: { files: readonly StackFile[] }; response: Plan };
-  unpack: { request: { files: readonly StackFile[] }; response: UnpackedArchives | undefined };
+  unpack: { request: { files: readonly StackFile[] }; response: Unpacked | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
   mask: {
     request: { files: readonly StackFile[]; mask: StackFile | undefined; settings: Settings };
@@ -51,11 +57,12 @@ export type ToWorker =
   | { [T in TaskName]: { task: T; request: Tasks[T]["request"] } }[TaskName]
   | { task: "cancel" };
 
-/** From the worker: events while a task runs, its end, or that the module is beyond repair. */
+/** From the worker: the lock that it holds as long as it lives, events while a task runs, its end, or that the module is beyond repair. */
 export type FromWorker =
-  | { event: "load"; fraction: number }
+  | ({ event: "load" } & LoadProgress)
+  | { event: "alive"; lock: string }
   | { event: "progress"; stage: Stage; fraction: number }
   | { event: "plan"; plan: InputPlan; words: string[] }
   | { event: "done"; response: Tasks[TaskName]["response"] }
-  | { event: "failed"; kind: FailureKind; message: string }
+  | { event: "failed"; kind: FailureKind | "load"; message: string }
   | { event: "crashed"; message: string };

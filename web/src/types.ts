@@ -58,6 +58,50 @@ export interface NamedFile {
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
 
+/** Samples in memory, row after row from the top; `ImageData` is one of them. */
+export interface RawImage {
+  /** `width * height * channels` samples, those of a pixel side by side. Floats are 1 where a photograph is white. */
+  readonly data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
+  /** In pixels. */
+  readonly width: number;
+  /** In pixels. */
+  readonly height: number;
+  /**
+   * 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha (floats: 1 or 3); as many as the samples make when left out.
+   * Transparency is taken for the mask where there is no other.
+   */
+  readonly channels?: number;
+  /**
+   * How the samples relate to light: encoded for viewing, or in proportion to it. When left out, 8 bits are `srgb`, 16 bits
+   * and floats `linear`.
+   */
+  readonly colorSpace?: "srgb" | "linear" | "display-p3";
+}
+
+/** What a canvas can draw: its pixels are taken as 8 bits sRGB, when they are handed over. */
+export type DrawableSource =
+  | HTMLImageElement
+  | HTMLCanvasElement
+  | HTMLVideoElement
+  | OffscreenCanvas
+  | ImageBitmap
+  | VideoFrame;
+
+/**
+ * An image, or a file beside the photographs: a file by name, an encoded file without one (its content says what it is),
+ * samples, or what a canvas can draw. Memory that was handed over must not be changed until the call ends.
+ */
+export type ImageSource = StackFile | Blob | ArrayBuffer | ArrayBufferView | RawImage | DrawableSource;
+
+/** Known lights: a file of them, its text, or a vector `[x, y, z]` (x right, y up, z to the camera) for each photograph. */
+export type LightsSource =
+  | StackFile
+  | Blob
+  | ArrayBuffer
+  | ArrayBufferView
+  | string
+  | readonly (readonly [number, number, number])[];
+
 /** What archives among some files hold. */
 export interface UnpackedArchives {
   /** The files beside the archives, and those of the captures in them, named by their paths there. */
@@ -85,8 +129,37 @@ export interface DeviceReport {
 export interface CreateOptions {
   /** `auto` when left out. */
   readonly device?: DeviceChoice;
-  /** Hears how much of the module (networks included) has arrived, in 0..1. */
+  /** Hears how much of the module (networks included) has arrived. */
+  readonly onProgress?: (progress: LoadProgress) => void;
+  /**
+   * The same as a fraction alone, in 0..1.
+   *
+   * @deprecated `onProgress` tells more
+   */
   readonly onLoad?: (fraction: number) => void;
+  /** Where `normalight_bg.wasm` lies, if not where this package or the bundler has put it. */
+  readonly wasmUrl?: string | URL;
+  /**
+   * Where `browser-worker.js` lies with all its parts, if not where this package or the bundler has put it; from another
+   * server, too. Not in Node.js.
+   */
+  readonly workerUrl?: string | URL;
+  /**
+   * Whether to compute in a worker, which is so when left out. `false` computes on the calling thread, which then stands
+   * still for some tenths of a second again and again: for surroundings without workers. There all estimators share one
+   * module, which stays in memory after `close()` and cannot start anew after a crash.
+   */
+  readonly worker?: boolean;
+  /** Stops the loading: the promise then rejects with the signal's reason. */
+  readonly signal?: AbortSignal;
+}
+
+/** How much of the module has arrived. */
+export interface LoadProgress {
+  /** In bytes, unpacked. */
+  readonly bytes: number;
+  /** In 0..1; 0 until the end where the server does not say how much there is. */
+  readonly fraction: number;
 }
 
 /** How to estimate; everything may be left out. */
@@ -95,11 +168,11 @@ export interface EstimateOptions {
   readonly color?: ColorMode;
   /**
    * Which pixels belong to the object: `auto` takes a mask among the files, else transparency, else a guess by
-   * brightness; `none` takes the whole frame; a file is an image that is bright inside.
+   * brightness; `none` takes the whole frame; anything else is an image that is bright inside.
    */
-  readonly mask?: "auto" | "none" | StackFile;
+  readonly mask?: "auto" | "none" | ImageSource;
   /** Known lights (`lights.csv`, `.lp`, or lines of `x y z`) instead of estimated ones. */
-  readonly lights?: StackFile;
+  readonly lights?: LightsSource;
   /**
    * Which way the axes of a light file point, each right, left, up, down, out (to the camera) or in: as in
    * `x-right,y-down,z-in`; `x-right,y-up,z-out` when left out.

@@ -1,50 +1,97 @@
 import type { Engine, InputFile } from "../wasm/normalight.js";
 import { bytesOf, HEAD, read, readForPlan } from "./decode.js";
 import { chooseDevice, cpu } from "./device.js";
-import type { Thrown } from "./generated.js";
-import { load, type Module } from "./load.js";
+import type { FailureKind, Thrown } from "./generated.js";
+import { type FetchModule, load, type Module } from "./load.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
 import type { DeviceChoice, DeviceReport, StackFile } from "./types.js";
 import { yieldToEvents } from "./yielding.js";
 
-/** The part of a worker's global scope that is used here. */
-interface Scope {
-  postMessage(message: FromWorker, transfer: Transferable[]): void;
-  addEventListener(type: "message", listener: (event: MessageEvent<ToWorker>) => void): void;
-  addEventListener(type: "unhandledrejection", listener: (event: PromiseRejectionEvent) => void): void;
+/** Where messages come from and go to: a worker's global scope, a thread's port, or the page itself. */
+export interface Scope {
+  postMessage(message: FromWorker, transfer: ArrayBuffer[]): void;
+  hear(listener: (message: ToWorker) => void): void;
 }
 
-const scope = self as unknown as Scope;
+/** What a served estimator can be told from outside. */
+export interface Served {
+  /** Says that the module is beyond repair. */
+  crashed(message: string): void;
+  /** Stops what is under way, and frees what the module holds. */
+  stop(): void;
+}
 
-let module: Promise<Module> | undefined;
-let engine: Engine | undefined;
-let cancelled = false;
+/** An estimator and its state. */
+interface State {
+  readonly scope: Scope;
+  readonly fetchModule: FetchModule;
+  module: Promise<Module> | undefined;
+  engine: Engine | undefined;
+  cancelled: boolean;
+  busy: boolean;
+  stopped: boolean;
+}
 
-scope.addEventListener("message", ({ data }) => {
-  if (data.task === "cancel") cancelled = true;
-  else void respond(data);
-});
+/** Answers the messages of a scope. */
+export function serve(scope: Scope, fetchModule: FetchModule): Served {
+  const state: State = {
+    scope,
+    fetchModule,
+    module: undefined,
+    engine: undefined,
+    cancelled: false,
+    busy: false,
+    stopped: false,
+  };
+  scope.hear((message) => {
+    if (message.task === "cancel") state.cancelled = true;
+    else void respond(state, message);
+  });
+  return {
+    crashed: (message) => crashed(state, message),
+    stop() {
+      state.cancelled = true;
+      state.stopped = true;
+      // The module refuses to free what is in use.
+      if (!state.busy) release(state);
+    },
+  };
+}
 
-// Calls into the module that were under way when it broke down never end by themselves.
-scope.addEventListener("unhandledrejection", ({ reason }) => crashed(String(reason)));
+function release(state: State): void {
+  state.engine?.free();
+  state.engine = undefined;
+}
 
-async function respond(message: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
-  cancelled = false;
+async function respond(state: State, message: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
+  state.cancelled = state.stopped;
+  state.busy = true;
   try {
-    const response = await perform(message);
-    scope.postMessage({ event: "done", response }, buffers(response));
+    const response = await perform(state, message);
+    state.scope.postMessage({ event: "done", response }, buffers(response));
   } catch (error) {
-    if (error instanceof WebAssembly.RuntimeError) crashed(error.message);
-    else tell({ event: "failed", ...failure(error) });
+    if (error instanceof WebAssembly.RuntimeError) crashed(state, error.message);
+    else tell(state, { event: "failed", ...failure(error) });
+  } finally {
+    state.busy = false;
+    if (state.stopped) release(state);
   }
 }
 
-async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<Tasks[TaskName]["response"]> {
-  module ??= load((fraction) => tell({ event: "load", fraction }), crashed);
-  const wasm = await module;
+async function perform(
+  state: State,
+  message: Exclude<ToWorker, { task: "cancel" }>,
+): Promise<Tasks[TaskName]["response"]> {
+  state.module ??= load(
+    state.fetchModule,
+    message.task === "create" ? message.request.wasmUrl : undefined,
+    (loaded) => tell(state, { event: "load", ...loaded }),
+    (words) => crashed(state, words),
+  );
+  const wasm = await state.module;
   switch (message.task) {
     case "create":
-      return await create(wasm, message.request.device);
+      return await create(state, wasm, message.request.device);
     case "plan":
       return wasm.plan(await Promise.all(message.request.files.map(readForPlan)));
     case "unpack":
@@ -55,7 +102,7 @@ async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<
     }
     case "mask": {
       const { files, mask, settings } = message.request;
-      return wasm.objectMask(await readAll(files), mask && (await read(mask)), settings);
+      return wasm.objectMask(await readAll(state, files), mask && (await read(mask)), settings);
     }
     case "derive": {
       const { normals, albedo, settings } = message.request;
@@ -64,46 +111,51 @@ async function perform(message: Exclude<ToWorker, { task: "cancel" }>): Promise<
     case "pictures":
       return wasm.normalPictures(message.request.normals, message.request.format);
     case "estimate":
-      return await estimate(message.request);
+      return await estimate(state, message.request);
   }
 }
 
-async function create(wasm: Module, choice: DeviceChoice): Promise<DeviceReport> {
-  let device = await chooseDevice(choice, navigator.gpu);
+async function create(state: State, wasm: Module, choice: DeviceChoice): Promise<DeviceReport> {
+  // Node.js has no navigator before version 21.
+  let device = await chooseDevice(choice, globalThis.navigator?.gpu);
   if (device.kind === "gpu") {
     try {
-      engine = await wasm.Engine.on_gpu(device.name);
+      state.engine = await wasm.Engine.on_gpu(device.name);
       return device;
     } catch (error) {
       device = cpu(`WebGPU does not start (${failure(error).message}), so the processor computes.`);
     }
   }
-  engine = wasm.Engine.on_cpu(device.name);
+  state.engine = wasm.Engine.on_cpu(device.name);
   return device;
 }
 
-async function estimate(request: Tasks["estimate"]["request"]): Promise<Tasks["estimate"]["response"]> {
+async function estimate(
+  state: State,
+  request: Tasks["estimate"]["request"],
+): Promise<Tasks["estimate"]["response"]> {
+  const { engine } = state;
   if (engine === undefined) throw new Error("no device was chosen");
-  const files = await readAll(request.files);
+  const files = await readAll(state, request.files);
   const mask = request.mask && (await read(request.mask));
   const lights = request.lights && (await read(request.lights));
   return await engine.estimate(files, mask, lights, request.settings, {
     async report(stage, fraction: number): Promise<boolean> {
-      tell({ event: "progress", stage, fraction });
+      tell(state, { event: "progress", stage, fraction });
       await yieldToEvents();
-      return !cancelled;
+      return !state.cancelled;
     },
     plan(plan, words) {
-      tell({ event: "plan", plan, words });
+      tell(state, { event: "plan", plan, words });
     },
   });
 }
 
-async function readAll(files: readonly StackFile[]): Promise<InputFile[]> {
+async function readAll(state: State, files: readonly StackFile[]): Promise<InputFile[]> {
   const contents: InputFile[] = [];
   for (const file of files) {
     contents.push(await read(file));
-    if (cancelled) throw { kind: "cancelled", message: "cancelled" };
+    if (state.cancelled) throw { kind: "cancelled", message: "cancelled" };
   }
   return contents;
 }
@@ -132,24 +184,25 @@ async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks[
     }
     archives.push(file.name);
   }
-  return archives.length > 0 ? { files: unpacked, archives } : undefined;
+  const names = unpacked.map(({ name }) => name);
+  return archives.length > 0 ? { files: unpacked, names, archives } : undefined;
 }
 
 /** The module throws `{ kind, message }`; everything else is a surprise. */
-function failure(error: unknown): Thrown {
+function failure(error: unknown): Omit<Thrown, "kind"> & { kind: FailureKind | "load" } {
   const { kind, message } = Object(error) as { kind?: unknown; message?: unknown };
   return {
-    kind: kind === "input" || kind === "cancelled" ? kind : "device",
+    kind: kind === "input" || kind === "cancelled" || kind === "load" ? kind : "device",
     message: typeof message === "string" ? message : String(error),
   };
 }
 
-function crashed(message: string): void {
-  tell({ event: "crashed", message });
+function crashed(state: State, message: string): void {
+  tell(state, { event: "crashed", message });
 }
 
-function tell(message: FromWorker): void {
-  scope.postMessage(message, []);
+function tell(state: State, message: FromWorker): void {
+  state.scope.postMessage(message, []);
 }
 
 /** The buffers in a response: they are handed over instead of copied. */
