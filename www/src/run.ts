@@ -12,6 +12,7 @@ export class Run {
   readonly #problem = byId("run-problem");
   readonly #status = byId("status");
   readonly #notices = byId("notices");
+  readonly #why = byId("start-why");
   readonly #progress = new ProgressView();
   #running: AbortController | undefined;
 
@@ -41,14 +42,34 @@ export class Run {
 
   /** The stack has changed: what was said about the last one is out of date. */
   stackChanged(): void {
-    this.#start.disabled = this.stack.files.length === 0;
+    this.stackPlanned();
     say(this.#problem, "");
     say(this.#status, "");
     sayLines(this.#notices, []);
   }
 
+  /** It is known now which files are photographs. */
+  stackPlanned(): void {
+    const { lacking } = this.stack;
+    this.#start.disabled = lacking !== "";
+    say(this.#why, lacking);
+  }
+
+  /** Files came while a run is under way, which they would replace. */
+  ignore(): void {
+    say(
+      this.#status,
+      "A run is under way: what was dropped is ignored. Cancel the run first, then drop it again.",
+    );
+  }
+
+  /** Leaving the page would end the run: the browser asks first. */
+  readonly #asks = (event: BeforeUnloadEvent) => {
+    event.preventDefault();
+  };
+
   async #run(): Promise<void> {
-    if (this.#running) return;
+    if (this.#running || this.stack.lacking !== "") return;
     const running = new AbortController();
     this.#running = running;
     this.#show(true);
@@ -86,9 +107,11 @@ export class Run {
     for (const panel of this.form.querySelectorAll<HTMLElement>(".panel:not(.run)")) panel.inert = running;
     this.#start.hidden = running;
     if (running) {
+      addEventListener("beforeunload", this.#asks);
       this.#progress.start();
       this.#cancel.focus();
     } else {
+      removeEventListener("beforeunload", this.#asks);
       this.#progress.end();
       this.#start.focus({ preventScroll: true });
     }

@@ -25,6 +25,16 @@ class FileSetting {
     });
   }
 
+  /** The file belonged to other photographs: the first choice counts again. */
+  forget(): void {
+    if (!this.#file) return;
+    this.#file = undefined;
+    byId(`${this.#name}-name`).textContent = "File…";
+    if (chosen(this.#form, this.#name) !== "file") return;
+    const first = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"]`);
+    if (first) first.checked = true;
+  }
+
   /** The file, when one was chosen and is to be used. */
   get file(): File | undefined {
     return chosen(this.#form, this.#name) === "file" ? this.#file : undefined;
@@ -51,6 +61,13 @@ export class Settings {
       byId("light-axes").hidden = chosen(form, "lights") !== "file";
       if (name === "device" || name === "color") changed[name]();
     });
+  }
+
+  /** Other photographs are taken: mask and lights of the last ones do not belong to them. */
+  forgetFiles(): void {
+    this.#mask.forget();
+    this.#lights.forget();
+    byId("light-axes").hidden = true;
   }
 
   get device(): DeviceChoice {
