@@ -3,6 +3,7 @@ import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
+import { MaskSetting } from "./mask/setting.js";
 import { ResultView } from "./result.js";
 import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
@@ -29,6 +30,7 @@ const run = new Run(form, engine, stack, settings, (estimate) => {
 });
 
 run.stackPlanned();
+new MaskSetting(engine, stack, settings);
 
 /** Connects a button with the file input that it stands for. */
 function connect(button: string, input: string, take: (files: File[]) => void): void {

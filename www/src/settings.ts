@@ -25,6 +25,14 @@ class FileSetting {
     });
   }
 
+  /** Takes a file that the page made, under a name of ours. */
+  give(file: File, words: string): void {
+    this.#file = file;
+    byId(`${this.#name}-name`).textContent = words;
+    const radio = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"][value="file"]`);
+    if (radio) radio.checked = true;
+  }
+
   /** The file belonged to other photographs: the first choice counts again. */
   forget(): void {
     if (!this.#file) return;
@@ -49,6 +57,7 @@ export class Settings {
   readonly #changed: { device(): void; color(): void };
   /** The user's colour, while files that know their own have theirs. */
   #ownColor: ColorMode | undefined;
+  #drawn: File | undefined;
 
   constructor(form: HTMLFormElement, changed: { device(): void; color(): void }) {
     this.#form = form;
@@ -61,6 +70,17 @@ export class Settings {
       byId("light-axes").hidden = chosen(form, "lights") !== "file";
       if (name === "device" || name === "color") changed[name]();
     });
+  }
+
+  /** Takes a mask that was drawn on the photographs. */
+  drawnMask(mask: File): void {
+    this.#drawn = mask;
+    this.#mask.give(mask, "Drawn");
+  }
+
+  /** Whether the mask that counts is the drawn one. */
+  get maskIsDrawn(): boolean {
+    return this.#drawn !== undefined && this.#mask.file === this.#drawn;
   }
 
   /** Other photographs are taken: mask and lights of the last ones do not belong to them. */

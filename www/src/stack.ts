@@ -64,6 +64,16 @@ export class Stack {
     return this.#entries.map(({ file }) => file);
   }
 
+  /** The photographs among the files, as far as the plan is known. */
+  get photographs(): File[] {
+    return this.#plan.images.flatMap((index) => this.#entries[index]?.file ?? []);
+  }
+
+  /** The mask among the files. */
+  get mask(): File | undefined {
+    return this.#entries[this.#plan.mask ?? -1]?.file;
+  }
+
   /** Takes other files; `keep` adds them, and replaces those of the same name. */
   take(files: Iterable<File>, keep = false): void {
     const added = [...files].map((file) => this.#entry(file));
