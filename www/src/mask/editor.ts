@@ -201,6 +201,9 @@ class MaskEditor {
     const { history, tiles } = this.#document;
     this.#undo.disabled = !history.canUndo;
     this.#redo.disabled = !history.canRedo;
+    // A button that is no longer of use would take the focus with it, and the keys would go nowhere.
+    if (document.activeElement instanceof HTMLButtonElement && document.activeElement.disabled)
+      this.#stage.element.focus({ preventScroll: true });
     clearTimeout(this.#counting);
     this.#counting = setTimeout(() => {
       const pixels = tiles.count();
