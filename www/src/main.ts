@@ -3,6 +3,8 @@ import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
+import { LightHand } from "./lights/hand.js";
+import { Rigs } from "./lights/rigs.js";
 import { MaskSetting } from "./mask/setting.js";
 import { ResultView } from "./result.js";
 import { Run } from "./run.js";
@@ -17,7 +19,8 @@ const stack = new Stack(engine, {
   changed: () => run.stackChanged(),
   planned: () => run.stackPlanned(),
 });
-const settings = new Settings(form, {
+const rigs = new Rigs();
+const settings = new Settings(form, rigs, {
   device: () => engine.use(settings.device),
   color: () => {
     stack.color = settings.color;
@@ -27,9 +30,16 @@ const result = new ResultView();
 const run = new Run(form, engine, stack, settings, (estimate) => {
   intro.hide();
   result.show(estimate, settings.options.normalFormat ?? "opengl");
+  hand.show(estimate);
 });
 
 run.stackPlanned();
+const hand = new LightHand({
+  stack,
+  rigs,
+  again: (files, options) => run.again(files, { ...settings.optionsOfPart, ...options }),
+  shine: (x, y) => result.shineFrom(x, y),
+});
 new MaskSetting(engine, stack, settings);
 
 /** Connects a button with the file input that it stands for. */

@@ -1,9 +1,15 @@
-import type { Estimate, Progress } from "normalight";
+import type { Estimate, EstimateOptions, Progress } from "normalight";
 import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { ProgressView } from "./progress.js";
 import type { Settings } from "./settings.js";
 import type { Stack } from "./stack.js";
+
+/** Files and settings in place of those on the page. */
+interface Given {
+  readonly files: readonly File[];
+  readonly options: EstimateOptions;
+}
 
 /** Starts, follows and cancels runs. */
 export class Run {
@@ -68,15 +74,25 @@ export class Run {
     event.preventDefault();
   };
 
-  async #run(): Promise<void> {
+  /** A run on some of the files with other settings, such as corrected lights. */
+  async again(files: readonly File[], options: EstimateOptions): Promise<void> {
+    await this.#run({ files, options });
+  }
+
+  async #run(given?: Given): Promise<void> {
     if (this.#running || this.stack.lacking !== "") return;
+    const lacking = given ? "" : this.settings.lacking(this.stack.photographs.length);
+    if (lacking) {
+      say(this.#problem, lacking);
+      return;
+    }
     const running = new AbortController();
     this.#running = running;
     this.#show(true);
     say(this.#problem, "");
     say(this.#status, "");
     sayLines(this.#notices, []);
-    const estimate = await this.#estimate(running.signal);
+    const estimate = await this.#estimate(running.signal, given);
     this.#running = undefined;
     this.#show(false);
     // Only now: the page has its final shape, and the focus goes to the result.
@@ -84,15 +100,16 @@ export class Run {
   }
 
   /** The result; nothing when there is none, which the page then says. */
-  async #estimate(signal: AbortSignal): Promise<Estimate | undefined> {
+  async #estimate(signal: AbortSignal, given?: Given): Promise<Estimate | undefined> {
+    const files = given?.files ?? this.stack.files;
     const options = {
-      ...this.settings.options,
+      ...(given?.options ?? this.settings.optionsFor(this.stack.photographs)),
       signal,
       onProgress: (progress: Progress) => this.#progress.show(progress),
       onPlan: (_: unknown, words: readonly string[]) => sayLines(this.#notices, doubtful(words)),
     };
     try {
-      const estimate = await this.engine.with((normalight) => normalight.estimate(this.stack.files, options));
+      const estimate = await this.engine.with((normalight) => normalight.estimate(files, options));
       say(this.#status, `Done in ${total(estimate).toFixed(1)} s.`);
       return estimate;
     } catch (error) {

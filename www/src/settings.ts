@@ -1,5 +1,8 @@
 import type { ColorMode, DeviceChoice, EstimateOptions, Quality } from "normalight";
 import { byId, chosen } from "./dom.js";
+import { lightsOf, toCsv } from "./lights/light_text.js";
+import { RigChoice } from "./lights/rig_choice.js";
+import type { Rigs } from "./lights/rigs.js";
 
 /** A setting that may be a file: its radio button asks for one. */
 class FileSetting {
@@ -7,7 +10,8 @@ class FileSetting {
   readonly #name: string;
   #file: File | undefined;
 
-  constructor(form: HTMLFormElement, name: string) {
+  /** @param convert brings a file into a form that the estimator reads */
+  constructor(form: HTMLFormElement, name: string, convert = async (file: File) => file) {
     this.#form = form;
     this.#name = name;
     const input = byId<HTMLInputElement>(`${name}-file`);
@@ -15,10 +19,12 @@ class FileSetting {
     const radio = form.querySelector<HTMLInputElement>(`input[name="${name}"][value="file"]`);
     // A click on the chosen button asks again: `change` would not come.
     radio?.addEventListener("click", () => input.click());
-    input.addEventListener("change", () => {
-      this.#file = input.files?.[0] ?? this.#file;
-      label.textContent = this.#file?.name ?? "File…";
+    input.addEventListener("change", async () => {
+      const [file] = input.files ?? [];
       input.value = "";
+      if (!file) return;
+      this.#file = await convert(file);
+      label.textContent = file.name;
     });
     input.addEventListener("cancel", () => {
       if (!this.#file) form.querySelector<HTMLInputElement>(`input[name="${name}"]`)?.click();
@@ -49,21 +55,33 @@ class FileSetting {
   }
 }
 
+/** Lights in our JSON as a table, which the estimator reads; other files as they are, it says what is wrong with them. */
+async function tableOf(file: File): Promise<File> {
+  if (!/\.json$/i.test(file.name)) return file;
+  try {
+    return new File([toCsv(lightsOf(await file.text(), file.name))], "lights.csv", { type: "text/csv" });
+  } catch {
+    return file;
+  }
+}
+
 /** What the form says about how to estimate. */
 export class Settings {
   readonly #form: HTMLFormElement;
   readonly #mask: FileSetting;
   readonly #lights: FileSetting;
+  readonly #rig: RigChoice;
   readonly #changed: { device(): void; color(): void };
   /** The user's colour, while files that know their own have theirs. */
   #ownColor: ColorMode | undefined;
   #drawn: File | undefined;
 
-  constructor(form: HTMLFormElement, changed: { device(): void; color(): void }) {
+  constructor(form: HTMLFormElement, rigs: Rigs, changed: { device(): void; color(): void }) {
     this.#form = form;
     this.#changed = changed;
     this.#mask = new FileSetting(form, "mask");
-    this.#lights = new FileSetting(form, "lights");
+    this.#lights = new FileSetting(form, "lights", tableOf);
+    this.#rig = new RigChoice(form, rigs);
     form.addEventListener("change", ({ target }) => {
       const name = target instanceof HTMLInputElement ? target.name : "";
       if (name === "color") this.#ownColor = undefined;
@@ -116,6 +134,23 @@ export class Settings {
     const radio = this.#form.querySelector<HTMLInputElement>(`input[name="color"][value="${color}"]`);
     if (radio) radio.checked = true;
     this.#changed.color();
+  }
+
+  /** Why these settings do not fit to so many photographs; empty when they do. */
+  lacking(photographs: number): string {
+    return this.#rig.lacking(photographs);
+  }
+
+  /** The settings of a run on these photographs: a rig gives each its light. */
+  optionsFor(photographs: readonly File[]): EstimateOptions {
+    const lights = this.#rig.fileFor(photographs);
+    return lights ? { ...this.options, lights } : this.options;
+  }
+
+  /** The settings for a run on files that were chosen from the stack: its masks and lights are given with them. */
+  get optionsOfPart(): EstimateOptions {
+    const { images: _images, lights: _lights, lightAxes: _axes, ...others } = this.options;
+    return others;
   }
 
   get options(): EstimateOptions {

@@ -74,6 +74,24 @@ export class Stack {
     return this.#entries[this.#plan.mask ?? -1]?.file;
   }
 
+  /** The file of a name, as results give it: without the folders before it where that is clear. */
+  fileOf(name: string): File | undefined {
+    return this.#entryOf(name)?.file;
+  }
+
+  /** The thumbnail of a file. */
+  pictureOf(name: string): HTMLCanvasElement | undefined {
+    const entry = this.#entryOf(name);
+    return entry?.tile.dataset.state === "shown" ? entry.picture : undefined;
+  }
+
+  #entryOf(name: string): Entry | undefined {
+    const alike = this.#entries.filter(({ file }) => file.name.endsWith(`/${name}`));
+    return (
+      this.#entries.find(({ file }) => file.name === name) ?? (alike.length === 1 ? alike[0] : undefined)
+    );
+  }
+
   /** Takes other files; `keep` adds them, and replaces those of the same name. */
   take(files: Iterable<File>, keep = false): void {
     const added = [...files].map((file) => this.#entry(file));
