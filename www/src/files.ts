@@ -1,24 +1,54 @@
-/** The files of a drop; of a dropped folder those that lie directly in it, as on the command line. */
-export async function filesOfDrop(transfer: DataTransfer): Promise<File[]> {
+import { capturesAmong, type Found, type Placed } from "./captures.js";
+
+/** Folders within folders that are searched; deeper ones are hardly a capture. */
+const DEPTH = 6;
+
+/** Most files that are looked at: whoever drops a whole disk gets an answer, too. */
+const MOST = 20_000;
+
+/** What was dropped: files, folders, and the folders in them. */
+export async function filesOfDrop(transfer: DataTransfer): Promise<Found> {
   // Entries must be taken before the first wait: afterwards the browser forgets the drop.
   const entries = [...transfer.items]
     .map((item) => item.webkitGetAsEntry?.())
     .filter((entry) => entry != null);
-  if (entries.length === 0) return [...transfer.files];
-  const files = await Promise.all(entries.map(filesOfEntry));
-  return files.flat();
+  if (entries.length === 0)
+    return capturesAmong(
+      [...transfer.files].map((file) => ({ folder: "", file })),
+      [],
+    );
+  const placed: Placed[] = [];
+  for (const entry of entries) await gather(entry, "", DEPTH, placed);
+  return capturesAmong(
+    placed,
+    entries.filter(({ isDirectory }) => isDirectory).map(({ name }) => name),
+  );
 }
 
-/** The files that lie directly in a chosen folder. */
-export function filesOfFolder(chosen: Iterable<File>): File[] {
-  return [...chosen].filter((file) => file.webkitRelativePath.split("/").length <= 2);
+/** What a chosen folder holds; browsers hand out the files of all folders in it. */
+export function filesOfFolder(chosen: readonly File[]): Found {
+  const placed = chosen.map((file) => ({ folder: file.webkitRelativePath.replace(/\/?[^/]*$/, ""), file }));
+  const top = placed[0]?.folder.split("/")[0];
+  return top
+    ? capturesAmong(placed, [top])
+    : { captures: [], words: "The folder is empty. Nothing was taken." };
 }
 
-async function filesOfEntry(entry: FileSystemEntry): Promise<File[]> {
-  if (entry.isFile) return [await fileOf(entry as FileSystemFileEntry)];
-  const children = await childrenOf(entry as FileSystemDirectoryEntry);
-  const files = children.filter((child) => child.isFile) as FileSystemFileEntry[];
-  return await Promise.all(files.map(fileOf));
+async function gather(
+  entry: FileSystemEntry,
+  folder: string,
+  depth: number,
+  placed: Placed[],
+): Promise<void> {
+  if (placed.length >= MOST) return;
+  if (entry.isFile) {
+    placed.push({ folder, file: await fileOf(entry as FileSystemFileEntry) });
+    return;
+  }
+  if (depth === 0) return;
+  const path = folder ? `${folder}/${entry.name}` : entry.name;
+  for (const child of await childrenOf(entry as FileSystemDirectoryEntry))
+    await gather(child, path, depth - 1, placed);
 }
 
 function fileOf(entry: FileSystemFileEntry): Promise<File> {

@@ -1,7 +1,11 @@
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder } from "./files.js";
+import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
+import { LightHand } from "./lights/hand.js";
+import { Rigs } from "./lights/rigs.js";
+import { MaskSetting } from "./mask/setting.js";
 import { ResultView } from "./result.js";
 import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
@@ -11,8 +15,12 @@ import { Stack } from "./stack.js";
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
 const engine = new Engine();
-const stack = new Stack(engine, () => run.stackChanged());
-const settings = new Settings(form, {
+const stack = new Stack(engine, {
+  changed: () => run.stackChanged(),
+  planned: () => run.stackPlanned(),
+});
+const rigs = new Rigs();
+const settings = new Settings(form, rigs, {
   device: () => engine.use(settings.device),
   color: () => {
     stack.color = settings.color;
@@ -22,7 +30,17 @@ const result = new ResultView();
 const run = new Run(form, engine, stack, settings, (estimate) => {
   intro.hide();
   result.show(estimate, settings.options.normalFormat ?? "opengl");
+  hand.show(estimate);
 });
+
+run.stackPlanned();
+const hand = new LightHand({
+  stack,
+  rigs,
+  again: (files, options) => run.again(files, { ...settings.optionsOfPart, ...options }),
+  shine: (x, y) => result.shineFrom(x, y),
+});
+new MaskSetting(engine, stack, settings);
 
 /** Connects a button with the file input that it stands for. */
 function connect(button: string, input: string, take: (files: File[]) => void): void {
@@ -37,20 +55,29 @@ function connect(button: string, input: string, take: (files: File[]) => void): 
 
 const samples = new SampleChoice((files, { color }) => {
   settings.lendColor(color);
-  stack.take(files);
+  replace(files);
+  folders.forget();
 });
 // A sample that arrives late must not replace the photographs of a run.
 form.addEventListener("submit", () => samples.cancel());
+
+/** Takes files in place of all others; a mask and lights that were chosen for those go with them. */
+function replace(files: File[]): void {
+  if (stack.files.length > 0) settings.forgetFiles();
+  stack.take(files);
+}
 
 /** Takes files of the user in place of all others. */
 function take(files: File[]): void {
   samples.leave();
   settings.returnColor();
-  stack.take(files);
+  folders.forget();
+  replace(files);
 }
+const folders = new FolderChoice(take);
 
 connect("pick-files", "files", take);
-connect("pick-folder", "folder", (files) => take(filesOfFolder(files)));
+connect("pick-folder", "folder", (files) => folders.found(filesOfFolder(files)));
 connect("add", "more", (files) => {
   samples.leave();
   stack.take(files, true);
@@ -69,9 +96,13 @@ page.addEventListener("dragleave", (event) => {
 page.addEventListener("drop", async (event) => {
   event.preventDefault();
   page.classList.remove("dragging");
-  if (!event.dataTransfer || run.underWay) return;
+  if (!event.dataTransfer) return;
+  if (run.underWay) {
+    run.ignore();
+    return;
+  }
   try {
-    take(await filesOfDrop(event.dataTransfer));
+    folders.found(await filesOfDrop(event.dataTransfer));
   } catch (error) {
     run.fail(wordsOf(error));
   }

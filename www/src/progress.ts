@@ -1,5 +1,6 @@
 import { type Progress, STAGES, type Stage } from "normalight";
 import { byId, make } from "./dom.js";
+import { timeLeft } from "./time_left.js";
 
 /** The bar of a run and its stages. */
 export class ProgressView {
@@ -7,7 +8,11 @@ export class ProgressView {
   readonly #bar = byId<HTMLProgressElement>("progress-bar");
   readonly #words = byId("progress-words");
   readonly #items = new Map<Stage, HTMLLIElement>();
+  /** Not read aloud: it changes all the time. */
+  readonly #left = byId("progress-left");
   #current: Stage | undefined;
+  #began = 0;
+  #told = 0;
 
   constructor() {
     for (const stage of STAGES) this.#items.set(stage, make("li", "", stage));
@@ -17,6 +22,8 @@ export class ProgressView {
   start(): void {
     this.#current = undefined;
     this.#words.textContent = "Waiting for the estimator";
+    this.#left.textContent = "";
+    this.#began = 0;
     this.#bar.removeAttribute("value");
     for (const item of this.#items.values()) delete item.dataset.state;
     this.#whole.hidden = false;
@@ -24,6 +31,7 @@ export class ProgressView {
 
   show({ stage, fraction, stageFraction }: Progress): void {
     this.#bar.value = fraction;
+    this.#tellTimeLeft(fraction);
     this.#items.get(stage)?.style.setProperty("--done", `${100 * stageFraction}%`);
     if (stage === this.#current) return;
     this.#current = stage;
@@ -35,6 +43,16 @@ export class ProgressView {
       item.dataset.state = state;
       if (name === stage) state = "";
     }
+  }
+
+  /** Once a second: numbers that change faster cannot be read. */
+  #tellTimeLeft(fraction: number): void {
+    const now = performance.now();
+    // From the first word on: loading the module is no part of the run.
+    if (this.#began === 0) this.#began = now;
+    if (now - this.#told < 1000) return;
+    this.#told = now;
+    this.#left.textContent = timeLeft((now - this.#began) / 1000, fraction);
   }
 
   end(): void {

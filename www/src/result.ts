@@ -1,4 +1,4 @@
-import type { Estimate, Light } from "normalight";
+import type { Estimate } from "normalight";
 import { byId, make, paint, sayLines } from "./dom.js";
 import { showDownloads } from "./downloads.js";
 import { Relight } from "./relight.js";
@@ -15,8 +15,6 @@ export class ResultView {
     paint(byId<HTMLCanvasElement>("albedo"), width, height, albedo);
     byId("normals-words").textContent = normalFormat === "directx" ? "green is down" : "green is up";
     this.#relight.show(estimate);
-    showLightMap(estimate);
-    this.#showLights(estimate.lights);
     showFacts(estimate);
     sayLines(byId("plan"), estimate.planWords);
     showSeconds(estimate);
@@ -27,33 +25,10 @@ export class ResultView {
     if (top < 0 || top > innerHeight * 0.6) byId("result").scrollIntoView({ behavior });
   }
 
-  /** One row for each light; the row under the pointer lends its light to the relit picture. */
-  #showLights(lights: readonly Light[]): void {
-    const most = Math.max(...lights.map(({ intensity }) => intensity));
-    const rows = lights.map((light) => {
-      const { file, x, y, z, intensity, confidence } = light;
-      const row = make(
-        "tr",
-        "",
-        make("th", "", file),
-        ...[x, y, z].map((value) => make("td", "number", signed(value))),
-        make("td", "", bar(intensity / most, intensity.toFixed(2))),
-        make("td", "", bar(confidence, `${Math.round(100 * confidence)} %`)),
-      );
-      row.addEventListener("pointerenter", () => this.#relight.shineFrom(x, y));
-      return row;
-    });
-    byId("lights").replaceChildren(...rows);
+  /** Shows the object under a lamp in this direction. */
+  shineFrom(x: number, y: number): void {
+    this.#relight.shineFrom(x, y);
   }
-}
-
-function showLightMap({ files }: Estimate): void {
-  const file = files.find(({ name }) => name === "lights.svg");
-  const text = new TextDecoder().decode(file?.bytes);
-  const { documentElement } = new DOMParser().parseFromString(text, "image/svg+xml");
-  documentElement.setAttribute("role", "img");
-  documentElement.setAttribute("aria-label", "Light map: the direction and intensity of every light");
-  byId("light-map").replaceChildren(document.importNode(documentElement, true));
 }
 
 function showFacts(estimate: Estimate): void {
@@ -83,14 +58,4 @@ function showSeconds(estimate: Estimate): void {
     list.append(make("li", "", make("i", `stage-${index}`), `${stage} `, make("b", "", seconds.toFixed(2))));
   }
   byId("seconds").replaceChildren(strip, list);
-}
-
-function bar(share: number, words: string): HTMLElement {
-  const whole = make("span", "bar", words);
-  whole.style.setProperty("--share", `${Math.round(100 * Math.min(Math.max(share, 0), 1))}%`);
-  return whole;
-}
-
-function signed(value: number): string {
-  return value.toFixed(3).replace("-", "−");
 }

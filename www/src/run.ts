@@ -1,9 +1,15 @@
-import type { Estimate, Progress } from "normalight";
+import type { Estimate, EstimateOptions, Progress } from "normalight";
 import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { ProgressView } from "./progress.js";
 import type { Settings } from "./settings.js";
 import type { Stack } from "./stack.js";
+
+/** Files and settings in place of those on the page. */
+interface Given {
+  readonly files: readonly File[];
+  readonly options: EstimateOptions;
+}
 
 /** Starts, follows and cancels runs. */
 export class Run {
@@ -12,6 +18,7 @@ export class Run {
   readonly #problem = byId("run-problem");
   readonly #status = byId("status");
   readonly #notices = byId("notices");
+  readonly #why = byId("start-why");
   readonly #progress = new ProgressView();
   #running: AbortController | undefined;
 
@@ -41,21 +48,51 @@ export class Run {
 
   /** The stack has changed: what was said about the last one is out of date. */
   stackChanged(): void {
-    this.#start.disabled = this.stack.files.length === 0;
+    this.stackPlanned();
     say(this.#problem, "");
     say(this.#status, "");
     sayLines(this.#notices, []);
   }
 
-  async #run(): Promise<void> {
-    if (this.#running) return;
+  /** It is known now which files are photographs. */
+  stackPlanned(): void {
+    const { lacking } = this.stack;
+    this.#start.disabled = lacking !== "";
+    say(this.#why, lacking);
+  }
+
+  /** Files came while a run is under way, which they would replace. */
+  ignore(): void {
+    say(
+      this.#status,
+      "A run is under way: what was dropped is ignored. Cancel the run first, then drop it again.",
+    );
+  }
+
+  /** Leaving the page would end the run: the browser asks first. */
+  readonly #asks = (event: BeforeUnloadEvent) => {
+    event.preventDefault();
+  };
+
+  /** A run on some of the files with other settings, such as corrected lights. */
+  async again(files: readonly File[], options: EstimateOptions): Promise<void> {
+    await this.#run({ files, options });
+  }
+
+  async #run(given?: Given): Promise<void> {
+    if (this.#running || this.stack.lacking !== "") return;
+    const lacking = given ? "" : this.settings.lacking(this.stack.photographs.length);
+    if (lacking) {
+      say(this.#problem, lacking);
+      return;
+    }
     const running = new AbortController();
     this.#running = running;
     this.#show(true);
     say(this.#problem, "");
     say(this.#status, "");
     sayLines(this.#notices, []);
-    const estimate = await this.#estimate(running.signal);
+    const estimate = await this.#estimate(running.signal, given);
     this.#running = undefined;
     this.#show(false);
     // Only now: the page has its final shape, and the focus goes to the result.
@@ -63,15 +100,16 @@ export class Run {
   }
 
   /** The result; nothing when there is none, which the page then says. */
-  async #estimate(signal: AbortSignal): Promise<Estimate | undefined> {
+  async #estimate(signal: AbortSignal, given?: Given): Promise<Estimate | undefined> {
+    const files = given?.files ?? this.stack.files;
     const options = {
-      ...this.settings.options,
+      ...(given?.options ?? this.settings.optionsFor(this.stack.photographs)),
       signal,
       onProgress: (progress: Progress) => this.#progress.show(progress),
       onPlan: (_: unknown, words: readonly string[]) => sayLines(this.#notices, doubtful(words)),
     };
     try {
-      const estimate = await this.engine.with((normalight) => normalight.estimate(this.stack.files, options));
+      const estimate = await this.engine.with((normalight) => normalight.estimate(files, options));
       say(this.#status, `Done in ${total(estimate).toFixed(1)} s.`);
       return estimate;
     } catch (error) {
@@ -86,9 +124,11 @@ export class Run {
     for (const panel of this.form.querySelectorAll<HTMLElement>(".panel:not(.run)")) panel.inert = running;
     this.#start.hidden = running;
     if (running) {
+      addEventListener("beforeunload", this.#asks);
       this.#progress.start();
       this.#cancel.focus();
     } else {
+      removeEventListener("beforeunload", this.#asks);
       this.#progress.end();
       this.#start.focus({ preventScroll: true });
     }

@@ -1,5 +1,8 @@
 import type { ColorMode, DeviceChoice, EstimateOptions, Quality } from "normalight";
 import { byId, chosen } from "./dom.js";
+import { lightsOf, toCsv } from "./lights/light_text.js";
+import { RigChoice } from "./lights/rig_choice.js";
+import type { Rigs } from "./lights/rigs.js";
 
 /** A setting that may be a file: its radio button asks for one. */
 class FileSetting {
@@ -7,7 +10,8 @@ class FileSetting {
   readonly #name: string;
   #file: File | undefined;
 
-  constructor(form: HTMLFormElement, name: string) {
+  /** @param convert brings a file into a form that the estimator reads */
+  constructor(form: HTMLFormElement, name: string, convert = async (file: File) => file) {
     this.#form = form;
     this.#name = name;
     const input = byId<HTMLInputElement>(`${name}-file`);
@@ -15,14 +19,34 @@ class FileSetting {
     const radio = form.querySelector<HTMLInputElement>(`input[name="${name}"][value="file"]`);
     // A click on the chosen button asks again: `change` would not come.
     radio?.addEventListener("click", () => input.click());
-    input.addEventListener("change", () => {
-      this.#file = input.files?.[0] ?? this.#file;
-      label.textContent = this.#file?.name ?? "File…";
+    input.addEventListener("change", async () => {
+      const [file] = input.files ?? [];
       input.value = "";
+      if (!file) return;
+      this.#file = await convert(file);
+      label.textContent = file.name;
     });
     input.addEventListener("cancel", () => {
       if (!this.#file) form.querySelector<HTMLInputElement>(`input[name="${name}"]`)?.click();
     });
+  }
+
+  /** Takes a file that the page made, under a name of ours. */
+  give(file: File, words: string): void {
+    this.#file = file;
+    byId(`${this.#name}-name`).textContent = words;
+    const radio = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"][value="file"]`);
+    if (radio) radio.checked = true;
+  }
+
+  /** The file belonged to other photographs: the first choice counts again. */
+  forget(): void {
+    if (!this.#file) return;
+    this.#file = undefined;
+    byId(`${this.#name}-name`).textContent = "File…";
+    if (chosen(this.#form, this.#name) !== "file") return;
+    const first = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"]`);
+    if (first) first.checked = true;
   }
 
   /** The file, when one was chosen and is to be used. */
@@ -31,26 +55,57 @@ class FileSetting {
   }
 }
 
+/** Lights in our JSON as a table, which the estimator reads; other files as they are, it says what is wrong with them. */
+async function tableOf(file: File): Promise<File> {
+  if (!/\.json$/i.test(file.name)) return file;
+  try {
+    return new File([toCsv(lightsOf(await file.text(), file.name))], "lights.csv", { type: "text/csv" });
+  } catch {
+    return file;
+  }
+}
+
 /** What the form says about how to estimate. */
 export class Settings {
   readonly #form: HTMLFormElement;
   readonly #mask: FileSetting;
   readonly #lights: FileSetting;
+  readonly #rig: RigChoice;
   readonly #changed: { device(): void; color(): void };
   /** The user's colour, while files that know their own have theirs. */
   #ownColor: ColorMode | undefined;
+  #drawn: File | undefined;
 
-  constructor(form: HTMLFormElement, changed: { device(): void; color(): void }) {
+  constructor(form: HTMLFormElement, rigs: Rigs, changed: { device(): void; color(): void }) {
     this.#form = form;
     this.#changed = changed;
     this.#mask = new FileSetting(form, "mask");
-    this.#lights = new FileSetting(form, "lights");
+    this.#lights = new FileSetting(form, "lights", tableOf);
+    this.#rig = new RigChoice(form, rigs);
     form.addEventListener("change", ({ target }) => {
       const name = target instanceof HTMLInputElement ? target.name : "";
       if (name === "color") this.#ownColor = undefined;
       byId("light-axes").hidden = chosen(form, "lights") !== "file";
       if (name === "device" || name === "color") changed[name]();
     });
+  }
+
+  /** Takes a mask that was drawn on the photographs. */
+  drawnMask(mask: File): void {
+    this.#drawn = mask;
+    this.#mask.give(mask, "Drawn");
+  }
+
+  /** Whether the mask that counts is the drawn one. */
+  get maskIsDrawn(): boolean {
+    return this.#drawn !== undefined && this.#mask.file === this.#drawn;
+  }
+
+  /** Other photographs are taken: mask and lights of the last ones do not belong to them. */
+  forgetFiles(): void {
+    this.#mask.forget();
+    this.#lights.forget();
+    byId("light-axes").hidden = true;
   }
 
   get device(): DeviceChoice {
@@ -79,6 +134,23 @@ export class Settings {
     const radio = this.#form.querySelector<HTMLInputElement>(`input[name="color"][value="${color}"]`);
     if (radio) radio.checked = true;
     this.#changed.color();
+  }
+
+  /** Why these settings do not fit to so many photographs; empty when they do. */
+  lacking(photographs: number): string {
+    return this.#rig.lacking(photographs);
+  }
+
+  /** The settings of a run on these photographs: a rig gives each its light. */
+  optionsFor(photographs: readonly File[]): EstimateOptions {
+    const lights = this.#rig.fileFor(photographs);
+    return lights ? { ...this.options, lights } : this.options;
+  }
+
+  /** The settings for a run on files that were chosen from the stack: its masks and lights are given with them. */
+  get optionsOfPart(): EstimateOptions {
+    const { images: _images, lights: _lights, lightAxes: _axes, ...others } = this.options;
+    return others;
   }
 
   get options(): EstimateOptions {

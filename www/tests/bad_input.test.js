@@ -36,16 +36,10 @@ const cases = [
     /001\.png: expected a complete PNG/,
   ],
   [
-    "no image at all",
-    [{ name: "notes.docx", bytes: text.encode("hello") }],
-    /notes\.docx: found a file with extension/,
-  ],
-  [
     "images of different sizes",
     [...three, ...[4, 5, 6].map((number) => greyPng(`${number}.png`, 40, 32, 200))],
     /4\.png: 40x32 pixels/,
   ],
-  ["fewer than three images", three.slice(1), /2 image\(s\) found, at least 3/],
   ["black images", three.map(({ name }) => greyPng(name, 32, 32, 0)), /black inside the mask/],
   ["an empty mask", [...three, greyPng("mask.png", 32, 32, 0)], /mask\.png: the mask is empty/],
   [
@@ -68,6 +62,13 @@ for (const [what, files, expected] of cases) {
     assert.match((await page.estimate()) ?? "", expected);
   });
 }
+
+test("no image at all: the page says so before a run", async () => {
+  await page.upload([{ name: "notes.docx", bytes: text.encode("hello") }]);
+  await page.page.waitForSelector("#start-why:text('There is no photograph among these files')");
+  assert.match((await page.page.textContent("#stack-notes")) ?? "", /notes\.docx/);
+  assert.ok(await page.page.isDisabled("#start"));
+});
 
 test("a wrong extension: the content decides", async () => {
   await page.upload([...three, greyPng("4.jpg", 32, 32, 140, "both")]);

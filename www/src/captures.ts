@@ -1,0 +1,101 @@
+/** A file and the folder that it lies in, as a path; empty for files that were dropped by themselves. */
+export interface Placed {
+  readonly folder: string;
+  readonly file: File;
+}
+
+/** Files that may be one stack. */
+export interface Capture {
+  readonly folder: string;
+  readonly files: readonly File[];
+}
+
+/** What a drop may mean: the first is taken, the others are offered. */
+export interface Found {
+  readonly captures: readonly Capture[];
+  /** What people must know about it; empty where everything is as expected. */
+  readonly words: string;
+}
+
+/** Fewest photographs of a stack. */
+export const FEWEST = 3;
+
+/** Extensions of files that are surely no photographs. The content decides later, this is only for the search. */
+const OTHER =
+  /(^|\/)(\.|thumbs\.db$|desktop\.ini$)|\.(txt|csv|tsv|json|lp|npy|mat|md|xml|xmp|html?|svg|log|obj|ply|glb)$/i;
+
+const mayBePhotograph = ({ name }: File) => !OTHER.test(name);
+
+/**
+ * The stacks among dropped files: those in the dropped folder itself, as on the command line; where there are too few,
+ * those in the folders below it.
+ */
+export function capturesAmong(placed: readonly Placed[], tops: readonly string[]): Found {
+  const folders = byFolder(placed);
+  const loose = folders.get("");
+  const direct = tops.flatMap((top) => folders.get(top) ?? []);
+  // Files that were dropped together belong together.
+  if (loose) return { captures: [{ folder: "", files: [...loose, ...direct] }], words: "" };
+  const captures = stacksIn(folders);
+  const [first] = captures;
+  if (first === undefined) return fewIn(folders, tops);
+  if (captures.length > 1) {
+    const words = `${captures.length} folders with photographs lie in ${named(tops).replace(/^The/, "the")}. Taken: ${first.folder}.`;
+    return { captures, words };
+  }
+  const nested = !tops.includes(first.folder);
+  return { captures, words: nested ? `The photographs lie in ${first.folder}.` : "" };
+}
+
+function byFolder(placed: readonly Placed[]): Map<string, File[]> {
+  const folders = new Map<string, File[]>();
+  for (const { folder, file } of placed) {
+    const files = folders.get(folder);
+    if (files) files.push(file);
+    else folders.set(folder, [file]);
+  }
+  return folders;
+}
+
+/** The folders that hold a stack; not those within such a folder, which are results or leftovers. */
+function stacksIn(folders: ReadonlyMap<string, File[]>): Capture[] {
+  const stacks = [...folders]
+    .filter(([, files]) => files.filter(mayBePhotograph).length >= FEWEST)
+    .map(([folder, files]) => ({ folder, files }))
+    .sort((a, b) => a.folder.localeCompare(b.folder, "en", { numeric: true }));
+  return stacks.filter(({ folder }) => !stacks.some((other) => folder.startsWith(`${other.folder}/`)));
+}
+
+/** No folder holds three photographs: an archive, one photograph in each folder, or nothing. */
+function fewIn(folders: ReadonlyMap<string, File[]>, tops: readonly string[]): Found {
+  const filled = [...folders].filter(([, files]) => files.some(mayBePhotograph));
+  const [only] = filled;
+  if (filled.length >= FEWEST) {
+    // One lamp in each folder: the names alone may be the same in all of them.
+    const files = filled.flatMap(([folder, files]) =>
+      files.map((file) => renamed(file, `${folder}/${file.name}`)),
+    );
+    return {
+      captures: [{ folder: named(tops), files }],
+      words: `The photographs lie in ${filled.length} folders.`,
+    };
+  }
+  if (only) {
+    const [folder, files] = only;
+    return { captures: [{ folder, files }], words: "" };
+  }
+  const others = [...folders.values()].flat().length;
+  const what =
+    others === 0
+      ? "is empty"
+      : `holds no photographs, only ${others === 1 ? "one other file" : `${others} other files`}`;
+  return { captures: [], words: `${named(tops)} ${what}. Nothing was taken.` };
+}
+
+function renamed(file: File, name: string): File {
+  return new File([file], name, { type: file.type, lastModified: file.lastModified });
+}
+
+function named(tops: readonly string[]): string {
+  return tops.length === 1 ? `The folder ${tops[0]}` : `The ${tops.length} folders`;
+}
