@@ -7,6 +7,7 @@ import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
 import { Settings } from "./settings.js";
 import { Stack } from "./stack.js";
+import { nameOf } from "./stack_name.js";
 
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
@@ -18,10 +19,11 @@ const settings = new Settings(form, {
     stack.color = settings.color;
   },
 });
-const result = new ResultView();
+const result = new ResultView(engine);
 const run = new Run(form, engine, stack, settings, (estimate) => {
   intro.hide();
-  result.show(estimate, settings.options.normalFormat ?? "opengl");
+  result.format = settings.options.normalFormat ?? "opengl";
+  result.show({ estimate, files: stack.files, name: stackName });
 });
 
 /** Connects a button with the file input that it stands for. */
@@ -35,8 +37,11 @@ function connect(button: string, input: string, take: (files: File[]) => void): 
   });
 }
 
-const samples = new SampleChoice((files, { color }) => {
+/** What people call the stack. */
+let stackName = "";
+const samples = new SampleChoice((files, { color, title }) => {
   settings.lendColor(color);
+  stackName = title;
   stack.take(files);
 });
 // A sample that arrives late must not replace the photographs of a run.
@@ -46,6 +51,7 @@ form.addEventListener("submit", () => samples.cancel());
 function take(files: File[]): void {
   samples.leave();
   settings.returnColor();
+  stackName = nameOf(files);
   stack.take(files);
 }
 

@@ -1,20 +1,37 @@
 import type { Estimate, Light } from "normalight";
-import { byId, make, paint, sayLines } from "./dom.js";
+import { byId, make, sayLines } from "./dom.js";
 import { showDownloads } from "./downloads.js";
-import { Relight } from "./relight.js";
+import type { Engine } from "./engine.js";
+import type { Format } from "./maps.js";
+import { Pictures } from "./pictures.js";
 import { total } from "./run.js";
+
+/** What a run was made of and gave. */
+export interface Outcome {
+  readonly estimate: Estimate;
+  /** The files of the stack as they were then. */
+  readonly files: readonly File[];
+  /** What people call that stack. */
+  readonly name: string;
+}
 
 /** Shows what an estimation gave. */
 export class ResultView {
-  readonly #relight = new Relight();
+  readonly #pictures: Pictures;
 
-  show(estimate: Estimate, normalFormat: string): void {
-    const { width, height, normals, albedo } = estimate;
+  constructor(engine: Engine) {
+    this.#pictures = new Pictures(engine);
+  }
+
+  /** The way green points has been changed. */
+  set format(format: Format) {
+    this.#pictures.format = format;
+  }
+
+  show(outcome: Outcome): void {
+    const { estimate } = outcome;
     byId("result").hidden = false;
-    paint(byId<HTMLCanvasElement>("normals"), width, height, normals);
-    paint(byId<HTMLCanvasElement>("albedo"), width, height, albedo);
-    byId("normals-words").textContent = normalFormat === "directx" ? "green is down" : "green is up";
-    this.#relight.show(estimate);
+    this.#pictures.show(outcome);
     showLightMap(estimate);
     this.#showLights(estimate.lights);
     showFacts(estimate);
@@ -40,7 +57,7 @@ export class ResultView {
         make("td", "", bar(intensity / most, intensity.toFixed(2))),
         make("td", "", bar(confidence, `${Math.round(100 * confidence)} %`)),
       );
-      row.addEventListener("pointerenter", () => this.#relight.shineFrom(x, y));
+      row.addEventListener("pointerenter", () => this.#pictures.shineFrom(x, y));
       return row;
     });
     byId("lights").replaceChildren(...rows);
