@@ -12,7 +12,10 @@ import { nameOf } from "./stack_name.js";
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
 const engine = new Engine();
-const stack = new Stack(engine, () => run.stackChanged());
+const stack = new Stack(engine, () => {
+  run.stackChanged();
+  result.stackIs(stack.files);
+});
 const settings = new Settings(form, {
   device: () => engine.use(settings.device),
   color: () => {
@@ -22,8 +25,14 @@ const settings = new Settings(form, {
 const result = new ResultView(engine);
 const run = new Run(form, engine, stack, settings, (estimate) => {
   intro.hide();
-  result.format = settings.options.normalFormat ?? "opengl";
-  result.show({ estimate, files: stack.files, name: stackName });
+  const format = settings.options.normalFormat ?? "opengl";
+  result.show({ estimate, files: stack.files, name: stackName, format });
+});
+
+// What is kept and shown follows this choice at once.
+form.addEventListener("change", ({ target }) => {
+  if (!(target instanceof HTMLInputElement) || target.name !== "normal-format") return;
+  result.turnGreen(settings.options.normalFormat ?? "opengl").catch((error) => run.fail(wordsOf(error)));
 });
 
 /** Connects a button with the file input that it stands for. */

@@ -6,6 +6,8 @@ import { Distrust } from "./relight/distrust.js";
 import { Relighting } from "./relight/relighting.js";
 import { Replay } from "./relight/replay.js";
 import type { Outcome } from "./result.js";
+import type { Relief } from "./solid/height_field.js";
+import { Solid } from "./solid/solid.js";
 import type { Layer } from "./viewer/choice.js";
 import { Viewer } from "./viewer/viewer.js";
 
@@ -14,19 +16,24 @@ interface Current {
   readonly outcome: Outcome;
   readonly photographs: Photographs;
   readonly distrust: Distrust;
-  depth?: Depth;
+  depth?: Depth | undefined;
 }
 
 /** The pictures of a result: the viewer, and the light in which it shows the object. */
 export class Pictures {
-  readonly relighting = new Relighting(byId("viewer-canvas"), () => this.#viewer.refresh());
+  readonly relighting = new Relighting(byId("viewer-canvas"), () => this.#relit());
   readonly #viewer = new Viewer(this.relighting);
   readonly #replay = new Replay(this.relighting, (index) => this.#replayed(index));
-  readonly #relit: Layer = { id: "relit", name: "Relit", load: () => this.relighting.picture };
+  readonly #solid = new Solid(() => this.#relief());
+  readonly #relitLayer: Layer = { id: "relit", name: "Relit", load: () => this.relighting.picture };
   #current: Current | undefined;
   #format: Format = "opengl";
 
-  constructor(private readonly engine: Engine) {}
+  /** @param makeDepth makes the depth of the shown result, where nobody has asked for it yet */
+  constructor(
+    private readonly engine: Engine,
+    private readonly makeDepth: () => Promise<Depth | undefined>,
+  ) {}
 
   /** Which way green points in the normals that are shown. */
   set format(format: Format) {
@@ -41,15 +48,18 @@ export class Pictures {
     this.#current.depth = depth;
     this.#offer();
     this.#viewer.choose("depth", this.#viewer.chosen[1]);
+    this.#solid.renew();
   }
 
   show(outcome: Outcome): void {
     this.#current?.distrust.close();
+    this.#solid.close();
     const { estimate, files } = outcome;
     const { width, height, normalMap, albedo } = estimate;
     const photographs = new Photographs(this.engine, estimate, files);
     const distrust = new Distrust(estimate, photographs);
     this.#current = { outcome, photographs, distrust };
+    this.#solid.light(this.relighting.lamps.all, this.relighting.look);
     this.relighting.show({ width, height, normals: normalMap.data, albedo });
     this.#replay.show(estimate.lights, distrust);
     this.#viewer.show(this.#layers(this.#current), estimate, knownOf(estimate, undefined), "relit");
@@ -58,6 +68,23 @@ export class Pictures {
   /** The chosen lamp goes to the direction with this x and y. */
   shineFrom(x: number, y: number): void {
     this.relighting.lamps.moveTo(x, y);
+  }
+
+  /** The object looks different: in the viewer and in space. */
+  #relit(): void {
+    this.#viewer.refresh();
+    this.#solid.light(this.relighting.lamps.all, this.relighting.look);
+  }
+
+  /** The shown result as a relief; its depth is made now, if it was not before. */
+  async #relief(): Promise<Relief | undefined> {
+    const current = this.#current;
+    if (!current) return undefined;
+    current.depth ??= await this.makeDepth();
+    if (!current.depth || current !== this.#current) return undefined;
+    this.#offer();
+    const { width, height, normalMap, albedo } = current.outcome.estimate;
+    return { width, height, depth: current.depth.data, normals: normalMap.data, albedo };
   }
 
   #offer(): void {
@@ -74,7 +101,7 @@ export class Pictures {
       depth,
       format: this.#format,
       replayed: () => this.#replay.index,
-      relit: this.#relit,
+      relit: this.#relitLayer,
       told: (words) => say(byId("viewer-status"), words),
     });
   }
