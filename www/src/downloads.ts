@@ -1,8 +1,14 @@
-import type { Estimate, OutputName } from "normalight";
-import { byId, make } from "./dom.js";
+import type { OutputName } from "normalight";
+import { byId, make, say, wordsOf } from "./dom.js";
+
+/** A file to keep. */
+export interface Kept {
+  readonly name: string;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+}
 
 /** What each file is, in few words. */
-const WORDS: Record<OutputName, string> = {
+const WORDS: Record<OutputName, string> & Record<string, string> = {
   "normals.png": "normal map, 16 bit",
   "normals.npy": "normals as numbers (NumPy)",
   "lights.csv": "lights as a table",
@@ -11,29 +17,131 @@ const WORDS: Record<OutputName, string> = {
   "albedo.png": "colour without light",
   "mask.png": "the object's pixels",
   "report.json": "settings, device, seconds",
+  "height.png": "depth, 16 bit grey",
+  "height.tiff": "depth in pixels, float",
+  "height.exr": "depth in pixels, float",
+  "depth.json": "what the depth means",
+  "map-normals.png": "normals for engines",
+  "map-normals.exr": "normals as numbers",
+  "map-height.png": "height for engines",
+  "map-albedo.png": "albedo for engines",
+  "map-curvature.png": "edges and hollows",
+  "map-occlusion.png": "ambient occlusion",
+  "mesh.glb": "surface for engines and viewers",
+  "mesh.ply": "surface for mesh programs",
+  "mesh.obj": "surface for any program",
+  "mesh.mtl": "material of mesh.obj",
 };
 
 const TYPES: Record<string, string> = {
   png: "image/png",
+  tiff: "image/tiff",
   csv: "text/csv",
   svg: "image/svg+xml",
   json: "application/json",
+  glb: "model/gltf-binary",
+  zip: "application/zip",
+  html: "text/html",
 };
 
-let addresses: string[] = [];
+/** The files of a result: those of the estimate, and those that were made of it since. */
+export class Downloads {
+  #name = "";
+  #files: readonly Kept[] = [];
+  #derived: readonly Kept[] = [];
+  #addresses: string[] = [];
+  /** A number that changes with the result. */
+  #turn = 0;
 
-/** Offers the files of a result; those of the result before are given up. */
-export function showDownloads({ files }: Estimate): void {
-  for (const address of addresses) URL.revokeObjectURL(address);
-  const links = files.map(({ name, bytes }) => {
-    const type = TYPES[name.split(".").pop() ?? ""] ?? "application/octet-stream";
-    const link = make("a", "", make("b", "", name), make("span", "", `${WORDS[name]}, ${sizeOf(bytes)}`));
-    link.href = URL.createObjectURL(new Blob([bytes], { type }));
-    link.download = name;
-    return link;
-  });
-  addresses = links.map(({ href }) => href);
-  byId("downloads").replaceChildren(...links.map((link) => make("li", "", link)));
+  /** @param share makes the page that shows the object by itself */
+  constructor(private readonly share: () => Promise<Kept>) {
+    byId("zip").addEventListener("click", () => void this.#give(() => this.#zip()));
+    byId("share").addEventListener("click", () => void this.#give(() => this.share()));
+  }
+
+  /** Offers the files of a result; those of the result before are given up. */
+  show(files: readonly Kept[], name: string): void {
+    this.#turn += 1;
+    this.#name = name;
+    this.#derived = [];
+    this.#files = files;
+    this.#list();
+  }
+
+  /** Offers files that were made of the result, in place of those that were made before. */
+  add(derived: readonly Kept[]): void {
+    this.#derived = derived;
+    this.#list();
+  }
+
+  /** Offers normals in which green points another way; the report says so. */
+  turn(normals: Uint8Array<ArrayBuffer>, format: string): void {
+    const text = new TextEncoder();
+    this.#files = this.#files.map(({ name, bytes }) => {
+      if (name === "normals.png") return { name, bytes: normals };
+      if (name !== "report.json") return { name, bytes };
+      const report = new TextDecoder().decode(bytes);
+      return { name, bytes: text.encode(withFormat(report, format)) };
+    });
+    this.#list();
+  }
+
+  #list(): void {
+    for (const address of this.#addresses) URL.revokeObjectURL(address);
+    const links = [...this.#files, ...this.#derived].map((file) => {
+      const words = [WORDS[file.name], sizeOf(file.bytes)].filter(Boolean).join(", ");
+      const link = linkOf(file);
+      link.append(make("b", "", file.name), make("span", "", words));
+      return link;
+    });
+    this.#addresses = links.map(({ href }) => href);
+    byId("downloads").replaceChildren(...links.map((link) => make("li", "", link)));
+  }
+
+  async #zip(): Promise<Kept> {
+    const { zipOf } = await import("./out/zip.js");
+    return { name: `${fileNameOf(this.#name)}.zip`, bytes: zipOf([...this.#files, ...this.#derived]) };
+  }
+
+  /** Makes a file and hands it to the browser to be stored. */
+  async #give(made: () => Promise<Kept>): Promise<void> {
+    const turn = this.#turn;
+    const problem = byId("download-problem");
+    say(problem, "");
+    try {
+      const file = await made();
+      if (turn !== this.#turn) return;
+      const link = linkOf(file);
+      link.click();
+      // Browsers fetch what a link leads to some time after the click.
+      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+    } catch (error) {
+      say(problem, wordsOf(error));
+    }
+  }
+}
+
+/** A report that names this way of green. */
+export function withFormat(report: string, format: string): string {
+  return report.replace(/("normal_format":\s*)"\w+"/, `$1"${format}"`);
+}
+
+/** A name for a file, of words that may hold anything. */
+export function fileNameOf(words: string): string {
+  const plain = words
+    .normalize("NFC")
+    .replace(/\.\w{2,4}\b/g, "")
+    .replace(/[^\p{L}\p{N}._-]+/gu, "-")
+    .replace(/^[-.]+|[-.]+$/g, "");
+  return plain === "" ? "normalight" : plain.slice(0, 80);
+}
+
+function linkOf({ name, bytes }: Kept): HTMLAnchorElement {
+  const link = make("a");
+  const type = TYPES[name.split(".").pop() ?? ""] ?? "application/octet-stream";
+  link.href = URL.createObjectURL(new Blob([bytes], { type }));
+  link.download = name;
+  return link;
 }
 
 function sizeOf({ length }: Uint8Array): string {

@@ -11,12 +11,16 @@ import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
 import { Settings } from "./settings.js";
 import { Stack } from "./stack.js";
+import { nameOf } from "./stack_name.js";
 
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
 const engine = new Engine();
 const stack = new Stack(engine, {
-  changed: () => run.stackChanged(),
+  changed() {
+    run.stackChanged();
+    result.stackIs(stack.files);
+  },
   planned: () => run.stackPlanned(),
 });
 const rigs = new Rigs();
@@ -26,11 +30,18 @@ const settings = new Settings(form, rigs, {
     stack.color = settings.color;
   },
 });
-const result = new ResultView();
+const result = new ResultView(engine);
 const run = new Run(form, engine, stack, settings, (estimate) => {
   intro.hide();
-  result.show(estimate, settings.options.normalFormat ?? "opengl");
+  const format = settings.options.normalFormat ?? "opengl";
+  result.show({ estimate, files: stack.files, name: stackName, format });
   hand.show(estimate);
+});
+
+// What is kept and shown follows this choice at once.
+form.addEventListener("change", ({ target }) => {
+  if (!(target instanceof HTMLInputElement) || target.name !== "normal-format") return;
+  result.turnGreen(settings.options.normalFormat ?? "opengl").catch((error) => run.fail(wordsOf(error)));
 });
 
 run.stackPlanned();
@@ -53,8 +64,11 @@ function connect(button: string, input: string, take: (files: File[]) => void): 
   });
 }
 
-const samples = new SampleChoice((files, { color }) => {
+/** What people call the stack. */
+let stackName = "";
+const samples = new SampleChoice((files, { color, title }) => {
   settings.lendColor(color);
+  stackName = title;
   replace(files);
   folders.forget();
 });
@@ -71,6 +85,7 @@ function replace(files: File[]): void {
 function take(files: File[]): void {
   samples.leave();
   settings.returnColor();
+  stackName = nameOf(files);
   folders.forget();
   replace(files);
 }

@@ -1,33 +1,111 @@
 import type { Estimate } from "normalight";
-import { byId, make, paint, sayLines } from "./dom.js";
-import { showDownloads } from "./downloads.js";
-import { Relight } from "./relight.js";
+import { Derive } from "./derive.js";
+import { byId, make, say, sayLines } from "./dom.js";
+import { Downloads, fileNameOf, type Kept } from "./downloads.js";
+import type { Engine } from "./engine.js";
+import { type Format, normalColours } from "./maps.js";
+import { Pictures } from "./pictures.js";
 import { total } from "./run.js";
+import { sameFiles } from "./stack_name.js";
+
+/** What a run was made of and gave. */
+export interface Outcome {
+  readonly estimate: Estimate;
+  /** The files of the stack as they were then. */
+  readonly files: readonly File[];
+  /** What people call that stack. */
+  readonly name: string;
+  /** Which way green points in its files. */
+  readonly format: Format;
+}
 
 /** Shows what an estimation gave. */
 export class ResultView {
-  readonly #relight = new Relight();
+  readonly #pictures: Pictures;
+  readonly #derive: Derive;
+  readonly #downloads = new Downloads(() => this.#share());
+  #outcome: Outcome | undefined;
+  #format: Format = "opengl";
 
-  show(estimate: Estimate, normalFormat: string): void {
-    const { width, height, normals, albedo } = estimate;
+  constructor(private readonly engine: Engine) {
+    this.#pictures = new Pictures(engine, async () => (await this.#derive.make({}))?.depth);
+    this.#derive = new Derive(
+      engine,
+      () => this.#format,
+      ({ depth, files }) => {
+        this.#downloads.add(files);
+        this.#pictures.depth = depth;
+      },
+    );
+  }
+
+  /** Which way green points in what is shown and kept; another choice counts at once. */
+  async turnGreen(format: Format): Promise<void> {
+    this.#format = format;
+    this.#pictures.format = format;
+    const outcome = this.#outcome;
+    if (!outcome) return;
+    const png = await this.#normals(outcome, format);
+    // Another result came meanwhile, or another choice.
+    if (outcome === this.#outcome && format === this.#format) this.#downloads.turn(png, format);
+  }
+
+  show(outcome: Outcome): void {
+    const { estimate, name, format } = outcome;
+    this.#outcome = outcome;
+    this.#format = format;
     byId("result").hidden = false;
-    paint(byId<HTMLCanvasElement>("normals"), width, height, normals);
-    paint(byId<HTMLCanvasElement>("albedo"), width, height, albedo);
-    byId("normals-words").textContent = normalFormat === "directx" ? "green is down" : "green is up";
-    this.#relight.show(estimate);
+    byId("result-title").textContent = name === "" ? "Result" : `Result of ${name}`;
+    this.stackIs(outcome.files);
+    this.#pictures.format = format;
+    this.#pictures.show(outcome);
+    this.#derive.show(estimate);
     showFacts(estimate);
     sayLines(byId("plan"), estimate.planWords);
     showSeconds(estimate);
-    showDownloads(estimate);
+    this.#downloads.show(estimate.files, name);
     byId("result-title").focus({ preventScroll: true });
     const { top } = byId("result").getBoundingClientRect();
     const behavior = matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
     if (top < 0 || top > innerHeight * 0.6) byId("result").scrollIntoView({ behavior });
   }
 
+  /** The stack holds these files now: a result of others says so. */
+  stackIs(files: readonly File[]): void {
+    if (!this.#outcome) return;
+    const { name, files: own } = this.#outcome;
+    const stale = !sameFiles(files, own);
+    byId("result").classList.toggle("old", stale);
+    const whose = name === "" ? "the photographs before" : name;
+    const words = `This is the result of ${whose}. The photographs have changed since; a new run replaces it.`;
+    say(byId("result-stale"), stale ? words : "");
+  }
+
+  /** `normals.png`; as the estimate left it, where that has green the same way. */
+  async #normals({ estimate, format: own }: Outcome, format: Format): Promise<Uint8Array<ArrayBuffer>> {
+    const file = estimate.files.find(({ name }) => name === "normals.png");
+    if (file && format === own) return file.bytes;
+    return (await this.engine.with((normalight) => normalight.normalPictures(estimate, format))).png;
+  }
+
+  async #share(): Promise<Kept> {
+    if (!this.#outcome) throw new Error("there is no result");
+    const { name, estimate } = this.#outcome;
+    const { width, height, normalMap, albedo } = estimate;
+    const { sharePage } = await import("./out/share.js");
+    const page = await sharePage(
+      name,
+      { width, height, normals: normalMap.data, albedo },
+      normalColours(normalMap.data, "opengl"),
+      this.#pictures.relighting.lamps.all,
+      this.#pictures.relighting.look,
+    );
+    return { name: `${fileNameOf(name)}.html`, bytes: new TextEncoder().encode(page) };
+  }
+
   /** Shows the object under a lamp in this direction. */
   shineFrom(x: number, y: number): void {
-    this.#relight.shineFrom(x, y);
+    this.#pictures.shineFrom(x, y);
   }
 }
 

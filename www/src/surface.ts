@@ -1,19 +1,7 @@
 import { context } from "./dom.js";
+import { DECODED, ENCODED, STEPS } from "./relight/encoding.js";
+import { AMBIENT } from "./relight/shading.js";
 import type { Vector } from "./vector.js";
-
-/** Light where no lamp shines, so that shadows keep some form. */
-const AMBIENT = 0.015;
-
-/** Steps of the table from linear light to 8-bit sRGB. */
-const STEPS = 4096;
-const ENCODED = Uint8ClampedArray.from({ length: STEPS + 1 }, (_, step) => {
-  const linear = step / STEPS;
-  return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
-});
-const DECODED = Float32Array.from({ length: 256 }, (_, code) => {
-  const encoded = code / 255;
-  return encoded <= 0.04045 ? encoded / 12.92 : ((encoded + 0.055) / 1.055) ** 2.4;
-});
 
 /** A surface that can be lit anew: normals and colours, one per pixel. */
 export class Surface {

@@ -43,24 +43,10 @@ test("the sample's result is shown", async () => {
   assert.equal(await tab.locator("#lights tr").count(), 16);
   assert.equal(await tab.locator("#light-map circle title").count(), 16);
   assert.match((await tab.textContent("#seconds")) ?? "", /reading.*lights.*normals.*refit.*albedo/);
-  for (const canvas of ["relight", "normals", "albedo"]) {
-    assert.ok((await opaquePixels(canvas)) > 2000, `${canvas} is empty`);
+  for (const map of ["relit", "normals", "albedo"]) {
+    await tab.selectOption("#viewer-map", map);
+    await tab.waitForFunction(() => (document.getElementById("viewer-spread")?.textContent ?? "") !== "");
+    assert.doesNotMatch((await tab.textContent("#viewer-spread")) ?? "", /no pixels/, `${map} is empty`);
   }
-  const before = await tab.locator("#relight").screenshot();
-  await tab.locator("#relight").press("ArrowRight");
-  await tab.locator("#relight").press("ArrowRight");
-  await tab.waitForTimeout(100);
-  assert.notDeepEqual(await tab.locator("#relight").screenshot(), before, "the lamp does not move");
   page.assertQuiet();
 });
-
-/** Pixels of a canvas on which something is painted. @param {string} id */
-function opaquePixels(id) {
-  return page.page.evaluate((name) => {
-    const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById(name));
-    const data = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
-    return data.filter(
-      (/** @type {number} */ value, /** @type {number} */ at) => at % 4 === 3 && value === 255,
-    ).length;
-  }, id);
-}

@@ -1,8 +1,9 @@
+import type { ObjectMask } from "normalight";
 import { make, wordsOf } from "../dom.js";
 import { MaskDocument } from "./document.js";
 import { MaskPanel } from "./panel.js";
 import type { Operation, Picture, Pixels } from "./protocol.js";
-import { type FoundMask, scaled } from "./source.js";
+import { scaled } from "./scaled.js";
 import { MaskStage } from "./stage.js";
 import { INSIDE } from "./tiles.js";
 import { button, TOOLS } from "./toolbar.js";
@@ -13,9 +14,9 @@ import { MaskWork } from "./work.js";
 export interface EditorInput {
   readonly photographs: readonly File[];
   /** The mask to begin with: of the estimator, a file, or a value for all pixels. */
-  readonly begin: () => Promise<FoundMask | File | number>;
+  readonly begin: () => Promise<ObjectMask | File | number>;
   /** The mask that the estimator would take by itself; nothing where it does not tell. */
-  readonly automatic: () => Promise<FoundMask | undefined>;
+  readonly automatic: () => Promise<ObjectMask | undefined>;
   /** The pixels of a photograph that the browser does not decode. */
   readonly pixelsOf: (photograph: File) => Promise<Pixels>;
 }
@@ -167,7 +168,7 @@ class MaskEditor {
     await this.#while("Working", () => this.#document.operate(operation));
   }
 
-  async #take(mask: FoundMask): Promise<void> {
+  async #take(mask: ObjectMask): Promise<void> {
     const { width, height } = this.#document.tiles;
     await this.#document.take(scaled(mask, width, height));
   }

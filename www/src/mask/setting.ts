@@ -1,8 +1,8 @@
+import type { EstimateOptions } from "normalight";
 import { byId, say, wordsOf } from "../dom.js";
 import type { Engine } from "../engine.js";
 import type { Settings } from "../settings.js";
 import type { Stack } from "../stack.js";
-import { maskOf } from "./source.js";
 import { INSIDE } from "./tiles.js";
 
 /** Longer side in pixels of photographs that only the estimator decodes: as large as they are. */
@@ -56,12 +56,11 @@ export class MaskSetting {
     const { mask = "auto" } = this.#settings.options;
     if (mask === "none") return INSIDE;
     if (mask instanceof File && this.#settings.maskIsDrawn) return mask;
-    const file = mask instanceof File ? mask : this.#stack.mask;
-    return (await this.#ask(mask)) ?? file ?? 0;
+    return await this.#ask(mask);
   }
 
-  #ask(mask: NonNullable<Settings["options"]["mask"]>) {
+  #ask(mask: NonNullable<EstimateOptions["mask"]>) {
     const { color } = this.#settings;
-    return this.#engine.with((normalight) => maskOf(normalight, this.#stack.files, { color, mask }));
+    return this.#engine.with((normalight) => normalight.mask(this.#stack.files, { color, mask }));
   }
 }

@@ -30,6 +30,8 @@ export class Page {
     this.close = close;
     page.setDefaultTimeout(PATIENCE);
     page.on("console", (message) => {
+      // Without a GPU the browser says that showing what WebGL drew takes time.
+      if (/GL Driver Message \(OpenGL, Performance/.test(message.text())) return;
       if (["error", "warning"].includes(message.type())) this.#complaints.push(message.text());
     });
     page.on("pageerror", (error) => this.#complaints.push(String(error)));
