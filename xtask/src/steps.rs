@@ -50,6 +50,8 @@ pub enum Step {
     Page,
     /// The package and the page in a browser.
     PageTests,
+    /// The package in projects with other tools, which npm fetches.
+    Consumers,
 }
 
 /// What the demo needs.
@@ -119,7 +121,7 @@ fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
             Step::Fmt | Step::Clippy | Step::Xtask => tools.components()?,
             Step::WasmClippy | Step::Wasm => drop(tools.toolchain()?),
             Step::NpmCi | Step::Check | Step::Page => drop(tools.node()?),
-            Step::PageTests => {
+            Step::PageTests | Step::Consumers => {
                 tools.node()?;
                 tools.chromium()?;
             }
@@ -205,6 +207,10 @@ impl Step {
                 }
                 let mut command = npm(&["test"])?;
                 command.env("NORMALIGHT_CLI", command_line);
+                run::run(command.env("NORMALIGHT_CHROMIUM", tools.chromium()?))
+            }
+            Self::Consumers => {
+                let mut command = npm(&["run", "test:consumers", "--workspace", "web"])?;
                 run::run(command.env("NORMALIGHT_CHROMIUM", tools.chromium()?))
             }
         }

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { chromium } from "playwright-core";
 
 /** Milliseconds for a page to say how it went. */
-const PATIENCE = 30_000;
+const PATIENCE = 150_000;
 
 /** Starts the browser of the tests. */
 export async function browser() {
