@@ -1,3 +1,4 @@
+import { showCaptureHelp } from "./capture_help.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder } from "./files.js";
@@ -34,6 +35,7 @@ const run = new Run(form, engine, stack, settings, (estimate) => {
 });
 
 run.stackPlanned();
+showCaptureHelp();
 const hand = new LightHand({
   stack,
   rigs,
