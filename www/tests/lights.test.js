@@ -13,7 +13,6 @@ let captions = [];
 
 before(async () => {
   page = await Page.open({ webgpu: false });
-  page.page.setDefaultTimeout(60_000);
   captions = await page.page.locator("#capture-lamps figcaption").allTextContents();
   await page.quality("fast");
   await page.upload(files);
