@@ -34,6 +34,17 @@ export function filesOfFolder(chosen: readonly File[]): Found {
     : { captures: [], words: "The folder is empty. Nothing was taken." };
 }
 
+/** Files under names that none of the others has: pictures of the clipboard are all called the same. */
+export function numbered(files: readonly File[], others: readonly File[]): File[] {
+  const taken = new Set(others.map(({ name }) => name));
+  return files.map((file) => {
+    let name = file.name;
+    for (let number = 2; taken.has(name); number++) name = file.name.replace(/(\.[^.]*)?$/, ` ${number}$1`);
+    taken.add(name);
+    return new File([file], name, { type: file.type });
+  });
+}
+
 async function gather(
   entry: FileSystemEntry,
   folder: string,

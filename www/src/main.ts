@@ -1,6 +1,7 @@
+import { showCaptureHelp } from "./capture_help.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
-import { filesOfDrop, filesOfFolder } from "./files.js";
+import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
 import { LightHand } from "./lights/hand.js";
@@ -45,6 +46,7 @@ form.addEventListener("change", ({ target }) => {
 });
 
 run.stackPlanned();
+showCaptureHelp();
 const hand = new LightHand({
   stack,
   rigs,
@@ -98,6 +100,18 @@ connect("add", "more", (files) => {
   stack.take(files, true);
 });
 byId("clear").addEventListener("click", () => take([]));
+
+/** Pictures out of the clipboard are added: they come one at a time. */
+addEventListener("paste", ({ clipboardData }) => {
+  const pasted = [...(clipboardData?.files ?? [])];
+  if (pasted.length === 0 || document.querySelector("dialog[open]")) return;
+  if (run.underWay) {
+    run.ignore();
+    return;
+  }
+  samples.leave();
+  stack.take(numbered(pasted, stack.files), true);
+});
 
 // Anywhere on the page: a file that misses its target would replace the page.
 const page = document.documentElement;

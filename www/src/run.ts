@@ -1,4 +1,4 @@
-import type { Estimate, EstimateOptions, Progress } from "normalight";
+import type { Estimate, EstimateOptions, InputPlan, Progress } from "normalight";
 import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { ProgressView } from "./progress.js";
@@ -65,7 +65,7 @@ export class Run {
   ignore(): void {
     say(
       this.#status,
-      "A run is under way: what was dropped is ignored. Cancel the run first, then drop it again.",
+      "A run is under way: what was dropped is ignored. Cancel the run first, then try again.",
     );
   }
 
@@ -106,7 +106,10 @@ export class Run {
       ...(given?.options ?? this.settings.optionsFor(this.stack.photographs)),
       signal,
       onProgress: (progress: Progress) => this.#progress.show(progress),
-      onPlan: (_: unknown, words: readonly string[]) => sayLines(this.#notices, doubtful(words)),
+      onPlan: (plan: InputPlan, words: readonly string[]) => {
+        sayLines(this.#notices, doubtful(words));
+        this.stack.mark(plan.notices);
+      },
     };
     try {
       const estimate = await this.engine.with((normalight) => normalight.estimate(files, options));

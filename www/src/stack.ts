@@ -1,7 +1,8 @@
-import type { ColorMode, Plan } from "normalight";
+import type { ColorMode, Notice, Plan } from "normalight";
 import { FEWEST } from "./captures.js";
 import { byId, make, paint, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
+import { noticesByFile } from "./file_notices.js";
 import { Roving } from "./roving.js";
 
 /** Longer side of a thumbnail in pixels. */
@@ -92,6 +93,18 @@ export class Stack {
     );
   }
 
+  /** Shows on thumbnails what is doubtful about their files. */
+  mark(notices: readonly Notice[]): void {
+    for (const { tile } of this.#entries) tile.querySelector(".flag")?.remove();
+    for (const [name, words] of noticesByFile(notices)) {
+      const flag = make("span", "flag", "!");
+      flag.setAttribute("role", "img");
+      flag.setAttribute("aria-label", words);
+      flag.title = words;
+      this.#entryOf(name)?.tile.append(flag);
+    }
+  }
+
   /** Takes other files; `keep` adds them, and replaces those of the same name. */
   take(files: Iterable<File>, keep = false): void {
     const added = [...files].map((file) => this.#entry(file));
@@ -162,6 +175,7 @@ export class Stack {
       if (signal.aborted) return;
       this.#plan = plan;
       this.#planned = true;
+      this.mark(plan.notices);
       this.#show();
       this.#heard.planned();
       for (const index of [...plan.images, plan.mask]) {

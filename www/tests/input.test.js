@@ -99,6 +99,40 @@ test("a folder with one photograph in each of its folders is one stack", async (
   await page.thumbnails(4);
 });
 
+test("pictures are pasted, and get names of their own", async () => {
+  const { page: tab } = page;
+  await tab.click("#clear");
+  for (const { bytes } of small(3)) {
+    await tab.evaluate((base64) => {
+      const data = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+      const clipboardData = new DataTransfer();
+      clipboardData.items.add(new File([data], "image.png", { type: "image/png" }));
+      document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true }));
+    }, Buffer.from(bytes).toString("base64"));
+  }
+  await page.thumbnails(3);
+  assert.deepEqual(await tab.locator("#thumbnails .name").allTextContents(), [
+    "image.png",
+    "image 2.png",
+    "image 3.png",
+  ]);
+  assert.ok(await tab.isEnabled("#start"));
+});
+
+test("what is doubtful about a file is shown on its thumbnail", async () => {
+  const { page: tab } = page;
+  const [first, ...others] = small(4);
+  assert.ok(first);
+  await page.upload([{ name: "001.jpg", bytes: first.bytes }, ...others]);
+  await page.thumbnails(4);
+  await tab.waitForSelector("#thumbnails li:has(.name:text('001.jpg')) .flag");
+  assert.equal(await tab.getAttribute("#thumbnails .flag", "aria-label"), "in truth PNG");
+  assert.equal(await tab.locator("#thumbnails .flag").count(), 1);
+  await page.upload(small(3));
+  await page.thumbnails(3);
+  assert.equal(await tab.locator("#thumbnails .flag").count(), 0);
+});
+
 test("two photographs are too few, and the page says so before anything starts", async () => {
   const { page: tab } = page;
   await tab.click("#clear");

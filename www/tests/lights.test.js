@@ -8,9 +8,12 @@ const files = sampleFolder("statue").filter(({ name }) => /^\d+\.png$|mask/.test
 /** @type {Page} */
 let page;
 
+/** Of the help for photographing, before there is a result. @type {(string | null)[]} */
+let captions = [];
+
 before(async () => {
   page = await Page.open({ webgpu: false });
-  page.page.setDefaultTimeout(90_000);
+  captions = await page.page.locator("#capture-lamps figcaption").allTextContents();
   await page.quality("fast");
   await page.upload(files);
   await page.thumbnails(17);
@@ -34,6 +37,26 @@ async function finished() {
   await tab().waitForSelector("#start:visible");
   assert.equal(await tab().isVisible("#run-problem"), false);
 }
+
+test("good and bad places of the lamp are shown, with the words of the check", async () => {
+  assert.match(captions[0] ?? "", /^✓ All around/);
+  assert.match(captions[1] ?? "", /^✗ From one side.*All lamps came from the left/);
+  assert.match(captions[2] ?? "", /^✗ Beside the camera.*All lamps lie within \d+ degrees/);
+  assert.match(captions[3] ?? "", /^✗ Grazing.*The lamps graze the object/);
+});
+
+test("lights from all around leave nothing to say, those from one side do", async () => {
+  assert.equal(await tab().isVisible("#light-coverage"), false);
+  const used = tab().locator('[name="light-used"]');
+  for (const [index, x] of (await tab().locator("#lights tr td:nth-child(2)").allTextContents()).entries()) {
+    if (x.startsWith("−")) continue;
+    await tab().click(`#lights tr:nth-child(${index + 1}) .light-name`);
+    await used.uncheck();
+  }
+  await tab().waitForSelector("#light-coverage li:text('All lamps came from the left')");
+  await tab().click("#lights-undo");
+  assert.equal(await tab().isVisible("#light-coverage"), false);
+});
 
 test("each light has a dot, a row, and its photograph", async () => {
   assert.equal(await tab().locator("#light-map .dot title").count(), 16);

@@ -12,7 +12,6 @@ let page;
 before(async () => {
   page = await Page.open({ webgpu: false });
   await page.quality("fast");
-  page.page.setDefaultTimeout(60_000);
 });
 after(() => page.close());
 
@@ -192,7 +191,26 @@ test("a drawn mask is the mask of the run, and is there when the editor is opene
   assert.match((await at.textContent("#facts")) ?? "", new RegExp(`${drawn.toLocaleString("en")} pixels`));
 });
 
+test("photographs that only the estimator decodes are shown, too", async () => {
+  const values = Buffer.from(Array.from({ length: 64 * 48 }, (_, at) => at % 64));
+  const raw = ["1.pgm", "2.pgm", "3.pgm"].map((name) => ({
+    name,
+    bytes: Buffer.concat([Buffer.from("P5\n64 48\n255\n"), values]),
+  }));
+  await page.upload(raw);
+  await page.thumbnails(3);
+  await open();
+  await press("frame");
+  assert.equal(await inside(0), 64 * 48);
+  assert.match((await tab().textContent(".mask-words")) ?? "", /of 64 × 48 pixels/);
+  await tab().selectOption('[aria-label="Photograph under the mask"]', { label: "3.pgm" });
+  await press("cancel");
+  assert.ok(await tab().isChecked('input[name="mask"][value="auto"]'));
+});
+
 test("two fingers zoom, and do not paint", async () => {
+  await page.upload(photographs);
+  await page.thumbnails(16);
   await open();
   const before = await inside();
   await tab().evaluate(() => {

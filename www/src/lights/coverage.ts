@@ -12,6 +12,9 @@ const NARROW = 20;
  */
 const ONE_SIDED = 0.85;
 
+/** The same share where no lamp at all stood opposite: the others stood above or below the middle. */
+const NONE_OPPOSITE = 0.6;
+
 /** Mean height above the picture in degrees: lower lamps graze the surface and shadows cover it. */
 const GRAZING = 25;
 
@@ -50,7 +53,7 @@ function side(lights: readonly HandLight[]): string | undefined {
   for (const [name, along] of sides) {
     const there = lights.filter((light) => along(light) > 0.1).length;
     const opposite = lights.filter((light) => along(light) < -0.1).length;
-    if (opposite === 0 && there >= ONE_SIDED * lights.length)
+    if (opposite === 0 && there >= NONE_OPPOSITE * lights.length)
       return `All lamps came from the ${name}: the other side of the object is in shadow in every photograph.`;
     if (there >= ONE_SIDED * lights.length)
       return `Nearly all lamps came from the ${name}: take more photographs with the lamp opposite.`;

@@ -82,10 +82,6 @@ export class LightHand {
     }
     this.#found = [...this.#lights];
     this.#foundLeft = new Set(this.#left);
-    sayLines(
-      this.#coverage,
-      coverage(lights).map((line) => `notice: ${line}`),
-    );
     this.#draw();
   }
 
@@ -168,6 +164,10 @@ export class LightHand {
     if (selected)
       this.#detail.show(selected, !this.#left.has(this.#selected), this.#page.stack.pictureOf(selected.file));
     this.#table.show(this.#lights, this.#left, this.#selected);
+    sayLines(
+      this.#coverage,
+      coverage(this.#used().map(({ light }) => light)).map((line) => `notice: ${line}`),
+    );
     const moved = this.#lights.filter((light, index) => light !== this.#found[index]).length;
     const leftOut = this.#left.size;
     const changed = moved > 0 || !sameSets(this.#left, this.#foundLeft);

@@ -142,7 +142,8 @@ function colourOf(share: number): string {
   return colours[Math.min(Math.floor(share * colours.length), colours.length - 1)] ?? "#fff";
 }
 
-function shape<K extends keyof SVGElementTagNameMap>(
+/** A new part of a drawing with its attributes. */
+export function shape<K extends keyof SVGElementTagNameMap>(
   name: K,
   attributes: Readonly<Record<string, string | number>>,
 ): SVGElementTagNameMap[K] {

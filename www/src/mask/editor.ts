@@ -145,15 +145,23 @@ class MaskEditor {
     });
   }
 
+  /** Shows the mask that counts now; whoever does not wait for it and begins to paint keeps what is painted. */
   async #begin(): Promise<void> {
-    await this.#while("Looking for the object", async () => {
+    this.#say("Looking for the object …");
+    const { history } = this.#document;
+    try {
       const mask = await this.#input.begin();
-      if (typeof mask === "number") this.#document.fill(mask);
-      else if (mask instanceof File) await this.#load(mask);
-      else await this.#take(mask);
-    });
-    this.#document.history.forget();
-    this.#tell();
+      if (history.canUndo || !this.#dialog.open) return;
+      await this.#while("Looking for the object", async () => {
+        if (typeof mask === "number") this.#document.fill(mask);
+        else if (mask instanceof File) await this.#load(mask);
+        else await this.#take(mask);
+      });
+      history.forget();
+      this.#tell();
+    } catch (error) {
+      this.#say(wordsOf(error));
+    }
   }
 
   async #automatic(): Promise<void> {
