@@ -22,7 +22,7 @@ export interface Relief {
 }
 
 /** Pixels of height between two neighbours beyond which the surface is taken to be torn. */
-const TORN = 12;
+const TORN = 4;
 
 /** Every how many pixels there is a vertex, for so many vertices at most. */
 export function stepFor(width: number, height: number, most: number): number {

@@ -49,6 +49,7 @@ export function spreadWords(name: string, { count, mean, lowest, highest }: Spre
 
 /** A number in few digits. */
 export function short(value: number): string {
+  if (Number.isInteger(value)) return String(value).replace("-", "−");
   const digits = Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2;
   return value.toFixed(digits).replace("-", "−");
 }
