@@ -72,7 +72,7 @@ export function drawHistogram(canvas: HTMLCanvasElement, picture: Picture): stri
     const wide = width / spread.bins.length;
     for (const [index, share] of spread.bins.entries()) {
       const size = Math.min(share / tallest, 1) * height;
-      drawing.fillRect(index * wide, height - size, wide - 0.5, size);
+      drawing.fillRect(index * wide, height - size, wide, size);
     }
   }
   drawing.globalAlpha = 1;
