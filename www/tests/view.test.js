@@ -56,7 +56,7 @@ test("histograms count what is on the object", () => {
     [...spread.bins].map((share) => Math.round(5 * share)),
     [2, 3],
   );
-  assert.equal(spreadWords("z", spread), "z 0.00 to 2.00, mean 0.80");
+  assert.equal(spreadWords("z", spread), "z 0 to 2, mean 0.80");
   const none = spreadOf({ at: () => Number.NaN }, 10, [0, 1], 2);
   assert.equal(spreadWords("z", none), "z: no pixels");
 });

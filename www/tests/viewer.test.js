@@ -239,3 +239,56 @@ test("the result is for everybody: labels, contrast and order, light, dark and n
   }
   page.assertQuiet();
 });
+
+test("two fingers enlarge the picture", async () => {
+  await tab.setViewportSize({ width: 1280, height: 900 });
+  await show("normals");
+  await tab.click("#viewer-fit");
+  await seen();
+  const whole = await percent();
+  const box = await tab.locator("#viewer-canvas").boundingBox();
+  assert.ok(box);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const fingers = await tab.context().newCDPSession(tab);
+  const touch = (/** @type {"touchStart" | "touchMove"} */ type, /** @type {number} */ apart) =>
+    fingers.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: [
+        { x: x - apart, y, id: 1 },
+        { x: x + apart, y, id: 2 },
+      ],
+    });
+  await touch("touchStart", 30);
+  for (const apart of [40, 60, 80, 90]) await touch("touchMove", apart);
+  await fingers.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await seen();
+  assert.ok(Math.abs((await percent()) / whole - 3) < 0.3, `${await percent()} % after ${whole} %`);
+});
+
+test("without WebGL2 the processor relights, and the page says that the view in 3D needs it", async () => {
+  await tab.addInitScript(() => {
+    const before = HTMLCanvasElement.prototype.getContext;
+    // @ts-expect-error: one signature for all kinds.
+    HTMLCanvasElement.prototype.getContext = function (
+      /** @type {string} */ kind,
+      /** @type {unknown} */ options,
+    ) {
+      return kind.startsWith("webgl") ? null : before.call(this, kind, options);
+    };
+  });
+  await tab.reload();
+  tab.setDefaultTimeout(120_000);
+  await page.ready();
+  await page.device("cpu");
+  await page.quality("fast");
+  await page.images("12");
+  await page.sample(statue);
+  assert.equal(await page.estimate(), "");
+  tab.setDefaultTimeout(20_000);
+  assert.match((await tab.textContent("#relight-words")) ?? "", /no WebGL2/);
+  const before = await seen();
+  await tab.locator("#viewer-canvas").press("ArrowRight");
+  assert.notEqual(await seen(), before);
+  await tab.click("#solid-open");
+  await tab.waitForSelector("#solid-words:has-text('This browser has no WebGL2')");
+});

@@ -98,7 +98,7 @@ export class Replay {
       if (!compared || this.#select.value !== value || this.#distrust !== distrust) return;
       this.relighting.lamps.set([{ x, y, brightness: compared.brightness / EXPOSURE }]);
       const percent = (100 * compared.mean).toFixed(1);
-      say(this.#words, `A matt surface differs from this photograph by ${percent} % of its brightness.`);
+      say(this.#words, `A matt surface differs from this photograph by ${percent} % of its brightness.`);
       this.shown(index);
     } catch (error) {
       if (this.#distrust !== distrust) return;

@@ -22,11 +22,26 @@ export interface Relief {
 }
 
 /** Pixels of height between two neighbours beyond which the surface is taken to be torn. */
-const TORN = 12;
+const TORN = 4;
+
+const NEIGHBOURS = [-1, 0, 1].flatMap((down) => [-1, 0, 1].map((right) => [right, down] as const));
 
 /** Every how many pixels there is a vertex, for so many vertices at most. */
 export function stepFor(width: number, height: number, most: number): number {
   return Math.max(1, Math.ceil(Math.sqrt((width * height) / most)));
+}
+
+/**
+ * Whether a pixel has a neighbour outside the object. There round objects turn away from the camera, and a small error of a
+ * normal is a spike.
+ */
+function atRim({ width, height, depth }: Relief, column: number, row: number): boolean {
+  for (const [right, down] of NEIGHBOURS) {
+    const [x, y] = [column + right, row + down];
+    if (x < 0 || y < 0 || x >= width || y >= height) continue;
+    if (Number.isNaN(depth[y * width + x] ?? 0)) return true;
+  }
+  return false;
 }
 
 /** The mesh of a height field, inside the mask and not across its tears. */
@@ -40,7 +55,7 @@ export function heightField(relief: Relief, step: number): HeightField {
     for (let column = 0; column < columns; column++) {
       const pixel = row * step * width + column * step;
       const z = depth[pixel] ?? Number.NaN;
-      if (Number.isNaN(z)) continue;
+      if (Number.isNaN(z) || atRim(relief, column * step, row * step)) continue;
       numbers[row * columns + column] = made.positions.length / 3;
       made.positions.push(
         scale * (column * step + 0.5 - width / 2),

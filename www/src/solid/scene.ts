@@ -31,6 +31,7 @@ export class SolidScene {
   readonly #controls: OrbitControls;
   readonly #material = new MeshStandardMaterial({ vertexColors: true, side: DoubleSide, roughness: 0.7 });
   readonly #geometry = new BufferGeometry();
+  readonly #mesh: Mesh;
   readonly #resized: ResizeObserver;
   #lights: DirectionalLight[] = [];
   #waiting = false;
@@ -46,7 +47,8 @@ export class SolidScene {
     this.#geometry.setAttribute("normal", new BufferAttribute(field.normals, 3));
     this.#geometry.setAttribute("color", new BufferAttribute(field.colours, 3));
     this.#geometry.setIndex(new BufferAttribute(field.triangles, 1));
-    this.#scene.add(new Mesh(this.#geometry, this.#material), new AmbientLight(0xffffff, 0.12));
+    this.#mesh = new Mesh(this.#geometry, this.#material);
+    this.#scene.add(this.#mesh, new AmbientLight(0xffffff, 0.12));
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.minDistance = 0.6;
     this.#controls.maxDistance = 16;
@@ -65,7 +67,7 @@ export class SolidScene {
   }
 
   /** Other lamps, or another surface. */
-  light(lamps: readonly Lamp[], { specular, gloss, coloured }: Look): void {
+  light(lamps: readonly Lamp[], { specular, gloss, coloured, detail, flipped }: Look): void {
     this.#scene.remove(...this.#lights);
     this.#lights = lamps.map(({ x, y, brightness }) => {
       // By pi: a lamp of brightness 1 shows a white surface that faces it as white.
@@ -74,6 +76,8 @@ export class SolidScene {
       return light;
     });
     if (this.#lights.length > 0) this.#scene.add(...this.#lights);
+    // A deeper surface has slopes that are as many times as steep, and its normals follow.
+    this.#mesh.scale.z = (flipped ? -1 : 1) * Math.max(detail, 0.01);
     this.#material.roughness = specular < 0.01 ? 1 : 1 - 0.75 * gloss;
     this.#material.vertexColors = coloured;
     this.#material.needsUpdate = true;

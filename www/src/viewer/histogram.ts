@@ -49,6 +49,7 @@ export function spreadWords(name: string, { count, mean, lowest, highest }: Spre
 
 /** A number in few digits. */
 export function short(value: number): string {
+  if (Number.isInteger(value)) return String(value).replace("-", "−");
   const digits = Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2;
   return value.toFixed(digits).replace("-", "−");
 }
@@ -71,7 +72,7 @@ export function drawHistogram(canvas: HTMLCanvasElement, picture: Picture): stri
     const wide = width / spread.bins.length;
     for (const [index, share] of spread.bins.entries()) {
       const size = Math.min(share / tallest, 1) * height;
-      drawing.fillRect(index * wide, height - size, wide - 0.5, size);
+      drawing.fillRect(index * wide, height - size, wide, size);
     }
   }
   drawing.globalAlpha = 1;
