@@ -94,7 +94,9 @@ for (const [what, [status, make, headers, words]] of Object.entries(BAD_MODULES)
     const failed = await create();
     assert.match(failed.words, /^NormalightError load device http.*normalight_bg\.wasm cannot be loaded: /);
     assert.match(failed.words, words);
-    assert.ok(failed.time < SOON, `${failed.time} ms`);
+    // Only compiling finds damage in the middle, and it is compiled twice: as long as a computer takes for that.
+    const limit = what === "is damaged in the middle" ? 20 * SOON : SOON;
+    assert.ok(failed.time < limit, `${failed.time} ms`);
     misbehave = () => false;
     assert.equal((await create()).words, "ok");
   });
