@@ -183,6 +183,12 @@ test("a result says of which stack it is, once another one is there", async () =
   await page.sample(relief);
   assert.match((await tab.textContent("#result-stale")) ?? "", /^This is the result of Stone cat\./);
   assert.deepEqual(await complaints(tab, "#result"), []);
+  tab.setDefaultTimeout(120_000);
+  assert.equal(await page.estimate(), "");
+  assert.equal(await tab.textContent("#result-title"), "Result of Relief");
+  assert.equal(await tab.isVisible("#result-stale"), false);
+  assert.equal(await tab.textContent("#relight-words"), "", "the second result is not painted by the GPU");
+  assert.equal(await tab.inputValue("#viewer-map"), "relit");
   page.assertQuiet();
 });
 

@@ -13,38 +13,56 @@ export class GlPainter implements Painter {
   readonly #gl: WebGL2RenderingContext;
   readonly #program: WebGLProgram;
   readonly #uniforms = new Map<string, WebGLUniformLocation | null>();
+  #width = 1;
   #sharp: boolean | undefined;
 
-  private constructor(
-    canvas: HTMLCanvasElement,
-    gl: WebGL2RenderingContext,
-    program: WebGLProgram,
-    private readonly skin: Skin,
-  ) {
+  private constructor(canvas: HTMLCanvasElement, gl: WebGL2RenderingContext, program: WebGLProgram) {
     this.#canvas = canvas;
     this.#gl = gl;
     this.#program = program;
+    gl.useProgram(program);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    for (const [unit, name] of ["normals", "albedo"].entries()) {
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+      gl.uniform1i(this.#at(name), unit);
+    }
+    gl.uniform1f(this.#at("encoded"), 0);
   }
 
   /**
-   * A painter, where the browser has WebGL2 and textures of the surface's size.
+   * A painter, where the browser has WebGL2. One serves all results: browsers keep few such canvases alive.
    *
    * @param above the canvas that it will be asked to paint on
    * @param lost hears when the GPU is lost
    */
-  static of(skin: Skin, above: HTMLElement, lost: () => void): GlPainter | undefined {
+  static open(above: HTMLElement, lost: () => void): GlPainter | undefined {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("aria-hidden", "true");
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, powerPreference: "low-power" });
-    if (!gl || gl.getParameter(gl.MAX_TEXTURE_SIZE) < Math.max(skin.width, skin.height)) return undefined;
-    const program = programOf(gl);
-    if (!program) return undefined;
-    canvas.addEventListener("webglcontextlost", lost, { once: true });
-    const painter = new GlPainter(canvas, gl, program, skin);
-    painter.#upload();
-    if (gl.getError() !== gl.NO_ERROR) return undefined;
+    const program = gl ? programOf(gl) : undefined;
+    if (!gl || !program) return undefined;
+    canvas.addEventListener("webglcontextlost", () => {
+      canvas.remove();
+      lost();
+    });
     above.before(canvas);
-    return painter;
+    return new GlPainter(canvas, gl, program);
+  }
+
+  /** Takes a surface; whether there is room for it. */
+  load({ width, height, normals, albedo }: Skin): boolean {
+    const gl = this.#gl;
+    if (gl.getParameter(gl.MAX_TEXTURE_SIZE) < Math.max(width, height)) return false;
+    const size = [width, height, 0] as const;
+    gl.activeTexture(gl.TEXTURE1);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, ...size, gl.RGBA, gl.UNSIGNED_BYTE, albedo);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB16F, ...size, gl.RGB, gl.FLOAT, normals);
+    this.#width = width;
+    return gl.getError() === gl.NO_ERROR;
   }
 
   begin(): void {
@@ -65,7 +83,7 @@ export class GlPainter implements Painter {
     gl.viewport(0, 0, width, height);
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(clip.left, height - clip.top - clip.height, clip.width, clip.height);
-    this.#sharpen(place.width >= 4 * this.skin.width);
+    this.#sharpen(place.width >= 4 * this.#width);
     gl.uniform4f(this.#at("place"), place.left, height - place.top - place.height, place.width, place.height);
     const places = lamps.flatMap(({ x, y, brightness }) => [...towards(x, y).slice(0, 2), brightness]);
     gl.uniform3fv(this.#at("lamps"), places.length > 0 ? places : [0, 0, 0]);
@@ -74,29 +92,6 @@ export class GlPainter implements Painter {
     gl.uniform4f(this.#at("look"), look.diffuse, look.specular, exponentOf(look.gloss), slope);
     gl.uniform1f(this.#at("coloured"), look.coloured ? 1 : 0);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-  }
-
-  close(): void {
-    this.#canvas.remove();
-    this.#gl.getExtension("WEBGL_lose_context")?.loseContext();
-  }
-
-  #upload(): void {
-    const gl = this.#gl;
-    const { width, height, normals, albedo } = this.skin;
-    gl.useProgram(this.#program);
-    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    for (const [unit, name] of ["normals", "albedo"].entries()) {
-      gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-      gl.uniform1i(this.#at(name), unit);
-    }
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, width, height, 0, gl.RGBA, gl.UNSIGNED_BYTE, albedo);
-    gl.activeTexture(gl.TEXTURE0);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB16F, width, height, 0, gl.RGB, gl.FLOAT, normals);
-    gl.uniform1f(this.#at("encoded"), 0);
   }
 
   /** Pixels as clear squares or smoothed. */

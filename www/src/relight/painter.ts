@@ -21,8 +21,6 @@ export interface Painter {
     lamps: readonly Lamp[],
     look: Look,
   ): void;
-  /** Gives back what it holds. */
-  close(): void;
 }
 
 /** Pixels that the processor shades at every move of a lamp. */
@@ -63,6 +61,7 @@ export class ProcessorPainter implements Painter {
     // It paints on the canvas of others, who clear it.
   }
 
+  /** Ends its waiting: another result comes. */
   close(): void {
     clearTimeout(this.#resting);
   }

@@ -21,6 +21,9 @@ export class Relighting implements LampHook {
   #look: Look = PLAIN;
   #skin: Skin | undefined;
   #painter: Painter | undefined;
+  #gl: GlPainter | undefined;
+  /** Whether WebGL2 was asked for: where there is none, there is none later. */
+  #tried = false;
 
   /**
    * @param above the canvas on which the object is seen
@@ -52,11 +55,11 @@ export class Relighting implements LampHook {
 
   /** Takes another result. */
   show(skin: Skin): void {
-    this.#painter?.close();
     this.#skin = skin;
-    this.#painter =
-      GlPainter.of(skin, this.above, () => this.#paintByProcessor()) ??
-      new ProcessorPainter(skin, this.changed);
+    if (!this.#tried) this.#gl = GlPainter.open(this.above, () => this.#paintByProcessor());
+    this.#tried = true;
+    this.#gl?.begin();
+    this.#take(this.#gl?.load(skin) ? this.#gl : new ProcessorPainter(skin, this.changed));
     byId("relight-words").textContent =
       this.#painter instanceof GlPainter
         ? ""
@@ -117,10 +120,15 @@ export class Relighting implements LampHook {
 
   /** The GPU is lost: what is seen must not be. */
   #paintByProcessor(): void {
-    if (!this.#skin || this.#painter instanceof ProcessorPainter) return;
-    this.#painter?.close();
-    this.#painter = new ProcessorPainter(this.#skin, this.changed);
+    this.#gl = undefined;
+    if (!this.#skin) return;
+    this.#take(new ProcessorPainter(this.#skin, this.changed));
     this.changed();
+  }
+
+  #take(painter: Painter): void {
+    if (this.#painter instanceof ProcessorPainter) this.#painter.close();
+    this.#painter = painter;
   }
 
   #set(some: Partial<Look>): void {
