@@ -49,6 +49,8 @@ export function layersOf(sources: Sources): Layer[] {
   const { estimate, photographs, distrust, depth, replayed, relit, told } = sources;
   const layers = [relit, normalsLayer(sources), albedoLayer(estimate)];
   if (depth) layers.push(depthLayer(estimate, depth));
+  const { normalErrors } = estimate;
+  if (normalErrors) layers.push(errorLayer(estimate, normalErrors.data));
   layers.push({
     id: "distrust",
     name: "Where to distrust",
@@ -118,6 +120,19 @@ function depthLayer({ width, height }: Estimate, { data }: Depth): Layer {
   };
   const load = () => new Still(width, height, greyed(data, range), values);
   return { id: "depth", name: "Depth", load };
+}
+
+/** The errors of normals that are to be expected, by how far apart the views are that they are means of. */
+function errorLayer({ width, height }: Estimate, errors: Float32Array): Layer {
+  const values = errors.map((error) => (error === 0 ? Number.NaN : error));
+  const range = [0, quantile(values, 0.998)] as const;
+  const load = () =>
+    new Still(width, height, ramped(values, range), {
+      channels: [{ name: "degrees", colour: WHITE, at: (pixel) => values[pixel] ?? Number.NaN }],
+      range,
+      words: (pixel) => `${short(values[pixel] ?? Number.NaN)}°`,
+    });
+  return { id: "errors", name: "Expected error of the normals", load };
 }
 
 /** Shares of a photograph's brightness as colours: light is where a matt surface explains it badly. */

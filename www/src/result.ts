@@ -116,11 +116,21 @@ function showFacts(estimate: Estimate): void {
     ["Mask", `${mask.words}, ${mask.pixels.toLocaleString("en")} pixels`],
     ["Device", device],
     ["Quality", quality],
+    ["Errors to expect", errorWords(estimate)],
     ["Time", `${total(estimate).toFixed(2)} s`],
   ];
   byId("facts").replaceChildren(
     ...facts.map(([name, value]) => make("div", "", make("dt", "", name), make("dd", "", value))),
   );
+}
+
+/** How far off lights and normals may be, in the mean. */
+function errorWords({ expectedErrors: { lights, normals } }: Estimate): string {
+  const words = [
+    ...(lights === null ? [] : [`lights ${lights.toFixed(0)}°`]),
+    ...(normals === null ? [] : [`normals ${normals.toFixed(0)}°`]),
+  ];
+  return words.join(", ") || "unknown";
 }
 
 /** The stages side by side on one bar, as long as they took, and in words below it. */

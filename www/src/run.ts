@@ -114,6 +114,8 @@ export class Run {
     try {
       const estimate = await this.engine.with((normalight) => normalight.estimate(files, options));
       say(this.#status, `Done in ${total(estimate).toFixed(1)} s.`);
+      // What the lights that were found are worth is known only now.
+      sayLines(this.#notices, doubtful(estimate.planWords));
       return estimate;
     } catch (error) {
       if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
