@@ -635,7 +635,7 @@ export interface Settings {
      */
     mask?: MaskSetting;
     /**
-     * Use only this many images, evenly spaced.
+     * Use only this many images, spread over the series.
      */
     images?: number | undefined;
     /**
