@@ -210,6 +210,14 @@ export interface Estimate {
      */
     albedoMap: FloatMap;
     /**
+     * Expected error of each normal in degrees, one a pixel, zero outside the object; not with quality `fast`.
+     */
+    normalErrors?: FloatMap;
+    /**
+     * Mean of the errors that are to be expected, in degrees.
+     */
+    expectedErrors: ExpectedErrors;
+    /**
      * The normals as 8-bit RGBA, transparent outside the object; rows from the top.
      */
     normals: Uint8Array<ArrayBuffer>;
@@ -221,6 +229,21 @@ export interface Estimate {
      * Files to keep.
      */
     files: OutputFile[];
+}
+
+/**
+ * Mean errors in degrees that rendered objects had where the program was as much in doubt; `None` where nothing is known of
+ * them: lights that were given, normals of a single view.
+ */
+export interface ExpectedErrors {
+    /**
+     * Of the lights' directions.
+     */
+    lights: number | null;
+    /**
+     * Of the normals.
+     */
+    normals: number | null;
 }
 
 /**
@@ -430,7 +453,7 @@ export interface NormalPictures {
 /**
  * Something about the input that a person should know.
  */
-export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "decoded-by-browser"; format: string; files: string[] } | { kind: "from-archive"; archive: string; folder: string } | { kind: "one-in-each-folder" } | { kind: "pages-as-photographs"; file: string; pages: number } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "several-pages"; file: string; pages: number; page: number } | { kind: "animation"; file: string } | { kind: "several-layers"; file: string; taken: string; others: string[] } | { kind: "extra-channels"; file: string; channels: number } | { kind: "infinite"; file: string; samples: number } | { kind: "not-numbers"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string; taken: string } | { kind: "color-unstated"; taken: string; sure: number | undefined } | { kind: "color-mixed"; said: string[] } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number; sure: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "overexposed"; share: number } | { kind: "lamp-hardly-moved"; difference: number } | { kind: "room-lit"; file: string } | { kind: "ambient-left-out"; file: string } | { kind: "no-ambient" } | { kind: "ambient-brighter"; file: string; share: number } | { kind: "camera-moved"; files: string[]; pixels: number } | { kind: "unlike"; files: string[] } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-without-intensity"; file: string; found: boolean } | { kind: "lights-contradict"; file: string; axes: string | undefined } | { kind: "lights-as-angles"; file: string; unit: string };
+export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "decoded-by-browser"; format: string; files: string[] } | { kind: "from-archive"; archive: string; folder: string } | { kind: "one-in-each-folder" } | { kind: "pages-as-photographs"; file: string; pages: number } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "several-pages"; file: string; pages: number; page: number } | { kind: "animation"; file: string } | { kind: "several-layers"; file: string; taken: string; others: string[] } | { kind: "extra-channels"; file: string; channels: number } | { kind: "infinite"; file: string; samples: number } | { kind: "not-numbers"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string; taken: string } | { kind: "color-unstated"; taken: string; sure: number | undefined } | { kind: "color-mixed"; said: string[] } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number; sure: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "overexposed"; share: number } | { kind: "lamp-hardly-moved"; difference: number } | { kind: "room-lit"; file: string } | { kind: "ambient-left-out"; file: string } | { kind: "no-ambient" } | { kind: "ambient-brighter"; file: string; share: number } | { kind: "camera-moved"; files: string[]; pixels: number } | { kind: "unlike"; files: string[] } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-without-intensity"; file: string; found: boolean } | { kind: "lights-contradict"; file: string; axes: string | undefined } | { kind: "lights-in-plane"; degrees: number } | { kind: "lights-one-sided"; side: string; dark: number } | { kind: "lights-as-angles"; file: string; unit: string };
 
 /**
  * The pixels of an object.
@@ -480,7 +503,7 @@ export interface OutputFile {
 /**
  * Names of the files that an estimation leaves.
  */
-export type OutputName = "normals.png" | "normals.npy" | "lights.csv" | "lights.lp" | "lights.svg" | "albedo.png" | "mask.png" | "report.json";
+export type OutputName = "normals.png" | "normals.npy" | "lights.csv" | "lights.lp" | "lights.svg" | "albedo.png" | "mask.png" | "normals-error.png" | "report.json";
 
 /**
  * What is painted outside the object.
@@ -563,6 +586,10 @@ export interface Report {
      */
     lights_from: string;
     /**
+     * How far off the result may be.
+     */
+    expected_errors?: ExpectedErrors;
+    /**
      * What computed the result.
      */
     device: string;
@@ -635,7 +662,7 @@ export interface Settings {
      */
     mask?: MaskSetting;
     /**
-     * Use only this many images, evenly spaced.
+     * Use only this many images, spread over the series.
      */
     images?: number | undefined;
     /**

@@ -185,7 +185,7 @@ export interface EstimateOptions {
    * its name or by what it shows.
    */
   readonly ambient?: "none" | "auto";
-  /** Use only this many images, evenly spaced. */
+  /** Use only this many images, spread over the series. */
   readonly images?: number;
   /** Which way green points in `normals.png` and the preview; `opengl` (up) when left out. */
   readonly normalFormat?: NormalFormat;

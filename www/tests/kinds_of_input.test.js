@@ -5,6 +5,7 @@ import { AVIF_BALLS } from "./support/avif.js";
 import { normalDifference } from "./support/compare.js";
 import { commandResults, goldenStack, greyPng, zipOf } from "./support/files.js";
 import { Page } from "./support/page.js";
+import { tiffPages } from "./support/tiff.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
 
@@ -66,6 +67,20 @@ const cases = [
     ],
     [/not in the list/],
     [/^photographs: 4 \(as filenames\.txt lists them\): 005\.png, 003\.png, 001\.png, 007\.png/],
+  ],
+  [
+    "the pages of a TIFF are the photographs",
+    [
+      tiffPages("stack.tif", 64, [
+        [-0.5, 0.3],
+        [0.5, 0.3],
+        [0, -0.5],
+        [0, 0.6],
+        [0.1, 0.1],
+      ]),
+    ],
+    [],
+    [/stack\.tif: its 5 pages are the photographs/],
   ],
   [
     "a wrong extension is noticed",

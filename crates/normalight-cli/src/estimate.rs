@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use normalight_core::{CoreError, Light};
 use normalight_io::{
     AmbientChoice, IoError, MaskChoice, OutputFolder, ReadOptions, RunDescription, StackInput,
-    StageSeconds, derived_files, read_named, read_paths, result_files,
+    StageSeconds, derived_files, notice_lines, read_named, read_paths, result_files,
 };
 use normalight_model::{EstimateInput, ModelError};
 use std::path::{Path, PathBuf};
@@ -50,6 +50,12 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         Err(ModelError::Cancelled) => return Ok(Outcome::Interrupted),
         estimated => estimated?,
     };
+    if lights.is_none() {
+        let doubts = notice_lines(input.judge_coverage(&estimate.lights));
+        if !args.quiet && !doubts.is_empty() {
+            note(&doubts.join("\n"));
+        }
+    }
 
     let before = [("start", opened), ("reading", read)];
     let before = before.map(|(stage, time)| StageSeconds {
@@ -66,7 +72,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<Outcome> {
         normal_format: args.normal_format.into(),
         seconds: before.into_iter().chain(stages).collect(),
     }
-    .report(&input);
+    .report(&input, &estimate);
     let mut files = result_files(&input, &estimate, &report)?;
     let surface = args.surface.settings(args.normal_format.into());
     let mut derived = None;

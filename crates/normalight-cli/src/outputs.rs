@@ -1,5 +1,5 @@
 //! What `estimate` says at the end.
-use normalight_io::{DerivedReport, Report};
+use normalight_io::{DerivedReport, ExpectedErrors, Report};
 
 /// What a person wants to know afterwards.
 pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
@@ -9,7 +9,7 @@ pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
         .map(|stage| format!("{} {:.2}", stage.stage, stage.seconds))
         .collect();
     format!(
-        "images:  {} of {}x{} pixels\nmask:    {}\nlights:  {}\ndevice:  {}\nquality: {}\nseconds: {}\nresults: {folder}: {}\n",
+        "images:  {} of {}x{} pixels\nmask:    {}\nlights:  {}\ndevice:  {}\nquality: {}\n{}seconds: {}\nresults: {folder}: {}\n",
         report.inputs.len(),
         report.width,
         report.height,
@@ -17,9 +17,22 @@ pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
         report.lights_from,
         report.device,
         report.settings.quality.name(),
+        expected(report.expected_errors),
         seconds.join(", "),
         files.join(", "),
     )
+}
+
+/// How far off the result may be, on a line.
+fn expected(errors: ExpectedErrors) -> String {
+    let said: Vec<String> = [("lights", errors.lights), ("normals", errors.normals)]
+        .iter()
+        .filter_map(|(what, error)| Some(format!("{what} {:.0} degrees", (*error)?)))
+        .collect();
+    match said.is_empty() {
+        true => String::new(),
+        false => format!("errors:  {} to be expected\n", said.join(", ")),
+    }
 }
 
 /// What is to be known of depth.

@@ -36,6 +36,10 @@ pub struct Estimate {
     pub lights: Vec<Light>,
     /// Unit normals, zero outside the mask.
     pub normals: NormalMap,
+    /// Expected error of each normal in degrees, see [`expected_normal_error`](crate::expected_normal_error): rows from the
+    /// top, zero outside the mask. `None` where that tells nothing: one view of few images, or lights in
+    /// a plane.
+    pub normal_errors: Option<Vec<f32>>,
     /// Linear RGB planes `[3, height, width]`, up to one scale; zero outside the mask.
     pub albedo: Vec<f32>,
 }

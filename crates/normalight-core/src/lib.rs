@@ -36,9 +36,11 @@ mod calibrated;
 mod depth;
 mod error;
 mod estimate;
+mod expected_error;
 mod intensities;
 mod light;
 mod light_agreement;
+mod light_coverage;
 mod mask;
 mod mesh;
 mod metrics;
@@ -68,10 +70,12 @@ pub use depth::{
 };
 pub use error::CoreError;
 pub use estimate::{Estimate, EstimateSettings};
+pub use expected_error::{expected_light_error, expected_normal_error};
 pub use glam::Vec3;
 pub use intensities::intensities_from_directions;
 pub use light::Light;
 pub use light_agreement::LightAgreement;
+pub use light_coverage::LightCoverage;
 pub use mask::{Mask, MaskGuess, MaskSource};
 pub use mesh::{CornerNormals, MAX_TRIANGLES, TriangleMesh};
 pub use metrics::{
@@ -87,7 +91,10 @@ pub use registration::{Registration, ShotShift, keep_seen, register_shots, trans
 pub use robust::robust_normals;
 pub use seamless::Seamless;
 pub use shots::{ShotLight, without_ambient};
-pub use stack::{ImageStack, MIN_IMAGES, Samples, StackImage, evenly_spaced_indices};
+pub use stack::{
+    ImageStack, MIN_IMAGES, Samples, StackImage, evenly_spaced_indices, spread_indices,
+    spread_order,
+};
 pub use statistics::StackStatistics;
 pub use symmetry::Symmetry;
 pub use transfer::Transfer;

@@ -162,6 +162,28 @@ impl ImageStack {
     }
 }
 
+/// Positions of `total` photographs in an order of which every stretch has lights from all sides.
+///
+/// Lamps often go round, or along rows: every so-manieth photograph of such a series could be lit from one column of
+/// lamps only. Steps of the golden ratio, which is further from every fraction than any other number, fall in with no
+/// period.
+pub fn spread_order(total: usize) -> Vec<usize> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let place = |image: usize| (image as f64 * GOLDEN).fract();
+    let mut order: Vec<usize> = (0..total).collect();
+    order.sort_by(|&a, &b| place(a).total_cmp(&place(b)));
+    order
+}
+
+/// Positions of `count` among `total` photographs, in order, whose lights come from all sides, see [`spread_order`]; the
+/// first is included; all when `count` is larger.
+pub fn spread_indices(total: usize, count: usize) -> Vec<usize> {
+    let mut chosen = spread_order(total);
+    chosen.truncate(count);
+    chosen.sort_unstable();
+    chosen
+}
+
 /// Positions of `count` evenly spaced items among `total`, in order, the first included; all when `count` is larger.
 pub fn evenly_spaced_indices(total: usize, count: usize) -> Vec<usize> {
     let count = count.min(total);
@@ -171,6 +193,34 @@ pub fn evenly_spaced_indices(total: usize, count: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_choice_falls_in_with_no_row_of_lamps() {
+        for total in [48, 96, 120] {
+            for count in [6, 8, 12, 16, 24] {
+                let chosen = spread_indices(total, count);
+                assert!(chosen.len() == count && chosen[0] == 0);
+                assert!(chosen.is_sorted_by(|a, b| a < b) && chosen[count - 1] < total);
+                // No stretch of the series is left out.
+                let gaps = chosen.windows(2).map(|pair| pair[1] - pair[0]);
+                let widest = gaps.chain([total - chosen[count - 1]]).max().unwrap();
+                assert!(widest * count <= 3 * total, "{count} of {total}: {widest}");
+                for period in 3..=12 {
+                    let mut seen = vec![0; period];
+                    for index in &chosen {
+                        seen[index % period] += 1;
+                    }
+                    // Evenly spaced ones may all fall on one column.
+                    let most = seen.iter().max().unwrap();
+                    assert!(
+                        most * 2 <= count + 1,
+                        "{count} of {total}, {period}: {seen:?}"
+                    );
+                }
+            }
+        }
+        assert_eq!(spread_indices(5, 9), [0, 1, 2, 3, 4]);
+    }
 
     fn image(name: &str, samples: Samples, channels: usize) -> StackImage {
         StackImage {

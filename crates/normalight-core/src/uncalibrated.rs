@@ -8,6 +8,7 @@ mod sampled;
 use crate::robust::{enough_images, in_a_plane};
 use crate::{CoreError, ImageStack, Light, Mask, NormalMap, robust_normals};
 use albedo_variation::flattest_albedo;
+pub(crate) use eigen::eigenpairs;
 use factorisation::Factors;
 use glam::{DMat3, DVec3, Vec3};
 use integrability::integrable;

@@ -1,5 +1,5 @@
 use crate::Disturbance;
-use normalight_core::evenly_spaced_indices;
+use normalight_core::spread_indices;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Photographs {
     /// How many; `None` or more than there are: all.
     pub images: Option<usize>,
-    /// `None`: evenly spaced; otherwise the number of a random choice.
+    /// `None`: spread over all of them; otherwise the number of a random choice.
     pub subset: Option<u64>,
     /// What is done to them.
     pub disturbance: Option<Disturbance>,
@@ -43,7 +43,7 @@ impl Photographs {
     pub fn indices(self, total: usize) -> Vec<usize> {
         let count = self.images.map_or(total, |images| images.min(total));
         let Some(subset) = self.subset.filter(|_| count < total) else {
-            return evenly_spaced_indices(total, count);
+            return spread_indices(total, count);
         };
         let mut random = Pcg64::seed_from_u64(subset);
         let mut indices: Vec<usize> = (0..total).collect();
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn all_and_evenly_spaced() {
+    fn all_and_spread() {
         assert_eq!(Photographs::ALL.indices(4), [0, 1, 2, 3]);
         let more = Photographs {
             images: Some(9),
@@ -100,6 +100,6 @@ mod tests {
             subset: None,
             disturbance: None,
         };
-        assert_eq!(two.indices(4), evenly_spaced_indices(4, 2));
+        assert_eq!(two.indices(4), spread_indices(4, 2));
     }
 }

@@ -25,7 +25,7 @@ pub struct Table {
     pub images: Option<usize>,
     /// What was done to them.
     pub disturbance: Option<Disturbance>,
-    /// Number of random choices of photographs that the figures are means of; 0 for evenly spaced ones, or all.
+    /// Number of random choices of photographs that the figures are means of; 0 for those spread over the series, or all.
     pub subsets: usize,
     /// Those that could be measured.
     pub objects: Vec<ObjectFigures>,

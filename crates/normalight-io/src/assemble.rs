@@ -12,7 +12,7 @@ use crate::{
     shots,
 };
 use normalight_core::{
-    ImageStack, MIN_IMAGES, Mask, MaskGuess, MaskSource, Transfer, evenly_spaced_indices,
+    ImageStack, MIN_IMAGES, Mask, MaskGuess, MaskSource, Transfer, spread_indices,
 };
 use photographs::read_shots;
 
@@ -204,7 +204,7 @@ fn pick(
             found,
             expected,
         }),
-        _ => Ok(evenly_spaced_indices(found, wanted.unwrap_or(found))),
+        _ => Ok(spread_indices(found, wanted.unwrap_or(found))),
     }
 }
 

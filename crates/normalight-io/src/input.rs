@@ -2,7 +2,7 @@
 use crate::input_plan::LightsDecision;
 use crate::{ColorMode, GivenLights, InputPlan, Limits, Notice};
 use normalight_core::{
-    ImageStack, Light, LightAgreement, Mask, MaskSource, intensities_from_directions,
+    ImageStack, Light, LightAgreement, LightCoverage, Mask, MaskSource, intensities_from_directions,
 };
 
 /// A file in memory.
@@ -67,7 +67,7 @@ pub struct ReadOptions {
     pub color: ColorMode,
     /// Where the mask comes from.
     pub mask: MaskChoice,
-    /// Read only this many images, evenly spaced over the stack; all when `None` or too large.
+    /// Read only this many images, spread over the stack; all when `None` or too large.
     pub images: Option<usize>,
     /// How much is read at most.
     pub limits: Limits,
@@ -130,7 +130,27 @@ impl StackInput {
                 axes: axes.map(|axes| axes.to_string()),
             });
         }
+        self.judge_coverage(&lights);
         lights
+    }
+
+    /// Keeps in the plan what is doubtful about the sides that the lights came from, and returns it. Lights of a file are
+    /// judged when they are accepted.
+    pub fn judge_coverage(&mut self, lights: &[Light]) -> &[Notice] {
+        let before = self.plan.notices.len();
+        if let Some(coverage) = LightCoverage::of(lights) {
+            if coverage.is_flat() {
+                self.plan.notices.push(Notice::LightsInPlane {
+                    degrees: coverage.off_plane.asin().to_degrees(),
+                });
+            } else if let Some(side) = coverage.one_side() {
+                self.plan.notices.push(Notice::LightsOneSided {
+                    side: side.to_owned(),
+                    dark: coverage.dark_degrees,
+                });
+            }
+        }
+        &self.plan.notices[before..]
     }
 
     /// Where the mask came from, in words or by its file name: for people and for the report.

@@ -96,7 +96,7 @@ pub use limits::{
     Limits, MAX_ARCHIVE_BYTES, MAX_ARCHIVE_FILES, MAX_ARCHIVE_RATIO, MAX_FILE_BYTES, MAX_FILES,
     MAX_MESH_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES,
 };
-pub use maps::{NormalFormat, albedo_png, mask_png, normals_npy, normals_png};
+pub use maps::{NormalFormat, albedo_png, mask_png, normal_errors_png, normals_npy, normals_png};
 pub use mask_file::decode_mask;
 pub use mesh::read_mesh;
 pub use mesh_files::{MeshFileFormat, Texture, mesh_as_files};
@@ -115,7 +115,7 @@ pub use page::{PAGE_SCRIPT, PAGE_STYLE};
 pub use photographs::{Thumbnail, photograph_png, thumbnail};
 pub use plan::{StackPlan, content_decides, find_list, is_helper, plan_contents, plan_stack};
 pub use previews::{albedo_rgba, normals_rgba};
-pub use report::{Report, ReportSettings, StageSeconds, WeightHashes, report_json};
+pub use report::{ExpectedErrors, Report, ReportSettings, StageSeconds, WeightHashes, report_json};
 pub use result_files::{OutputName, RunDescription, result_files};
 pub use stack::read_stack;
 pub use text::read_text;

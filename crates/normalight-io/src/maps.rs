@@ -49,6 +49,24 @@ pub fn normals_png(map: &NormalMap, format: NormalFormat) -> Result<Vec<u8>, IoE
     png("normal map", image.map(DynamicImage::ImageRgb16))
 }
 
+/// Expected errors of normals as 8-bit grey PNG: four steps of grey a degree, black outside the object.
+///
+/// # Shapes
+/// `errors`: `[height, width]`, degrees.
+///
+/// # Errors
+/// [`IoError::Encode`] for errors of another size than the mask.
+pub fn normal_errors_png(errors: &[f32], mask: &Mask) -> Result<Vec<u8>, IoError> {
+    let codes = errors.iter().zip(mask.inside());
+    let code = |(&error, &inside): (&f32, &bool)| match inside {
+        true => (4.0 * error).round().clamp(1.0, 255.0) as u8,
+        false => 0,
+    };
+    let (width, height) = (mask.width() as u32, mask.height() as u32);
+    let image = ImageBuffer::<Luma<u8>, _>::from_raw(width, height, codes.map(code).collect());
+    png("map of errors", image.map(DynamicImage::ImageLuma8))
+}
+
 /// A normal map as NumPy array: float32 `[height, width, 3]`, y up, zero outside the object.
 ///
 /// # Errors

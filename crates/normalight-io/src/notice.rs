@@ -300,6 +300,18 @@ pub enum Notice {
         /// Axes of the file under which they would agree, as the setting takes them.
         axes: Option<String>,
     },
+    /// Lights lie nearly in one plane with the object: normals are ambiguous across it.
+    LightsInPlane {
+        /// Typical angle between the lights and that plane, in degrees.
+        degrees: f32,
+    },
+    /// All lights came from one side.
+    LightsOneSided {
+        /// The side, in words.
+        side: String,
+        /// Degrees around the viewing axis in which there is no light.
+        dark: f32,
+    },
     /// Lights are given as angles.
     LightsAsAngles {
         /// The light file.

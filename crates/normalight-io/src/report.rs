@@ -1,5 +1,5 @@
 use crate::{ColorMode, InputPlan, IoError, NormalFormat};
-use normalight_core::{Decoding, Quality};
+use normalight_core::{Decoding, Estimate, Light, Mask, Quality, expected_light_error};
 use serde::{Deserialize, Serialize};
 
 /// Everything that is needed to tell later how a result came to be: `report.json`.
@@ -22,6 +22,9 @@ pub struct Report {
     pub plan: InputPlan,
     /// Where the lights came from, in words.
     pub lights_from: String,
+    /// How far off the result may be.
+    #[serde(default)]
+    pub expected_errors: ExpectedErrors,
     /// What computed the result.
     pub device: String,
     /// Which weights were used.
@@ -30,6 +33,34 @@ pub struct Report {
     pub settings: ReportSettings,
     /// Time of each stage, in the order they ran.
     pub seconds: Vec<StageSeconds>,
+}
+
+/// Mean errors in degrees that rendered objects had where the program was as much in doubt; `None` where nothing is known of
+/// them: lights that were given, normals of a single view.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify), tsify(missing_as_null))]
+pub struct ExpectedErrors {
+    /// Of the lights' directions.
+    pub lights: Option<f32>,
+    /// Of the normals.
+    pub normals: Option<f32>,
+}
+
+impl ExpectedErrors {
+    /// Of an estimate.
+    pub fn of(estimate: &Estimate, mask: &Mask, lights_given: bool) -> Self {
+        let lights = &estimate.lights;
+        let light = |light: &Light| expected_light_error(light.confidence);
+        let normals = estimate.normal_errors.as_ref().filter(|_| mask.count() > 0);
+        Self {
+            lights: (!lights_given && !lights.is_empty())
+                .then(|| lights.iter().map(light).sum::<f32>() / lights.len() as f32),
+            normals: normals.map(|errors| {
+                let sum: f64 = errors.iter().map(|&error| f64::from(error)).sum();
+                (sum / mask.count() as f64) as f32
+            }),
+        }
+    }
 }
 
 /// What was asked for, in the words of the command line.

@@ -1,8 +1,9 @@
 //! The files that an estimation leaves, the same from every program.
-use crate::report::{ReportSettings, lights_label};
+use crate::report::{ExpectedErrors, ReportSettings, lights_label};
 use crate::{
     IoError, NormalFormat, ReadOptions, Report, StackInput, StageSeconds, WeightHashes, albedo_png,
-    lights_csv, lights_lp, lights_svg, mask_png, normals_npy, normals_png, report_json,
+    lights_csv, lights_lp, lights_svg, mask_png, normal_errors_png, normals_npy, normals_png,
+    report_json,
 };
 use normalight_core::{Estimate, EstimateSettings};
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,9 @@ pub enum OutputName {
     /// The pixels that were taken for the object.
     #[serde(rename = "mask.png")]
     MaskPng,
+    /// How far off each normal may be.
+    #[serde(rename = "normals-error.png")]
+    NormalsErrorPng,
     /// How the result came to be: a [`Report`].
     #[serde(rename = "report.json")]
     ReportJson,
@@ -58,7 +62,7 @@ pub struct RunDescription<'a> {
 
 impl RunDescription<'_> {
     /// What `report.json` says about the run.
-    pub fn report(&self, input: &StackInput) -> Report {
+    pub fn report(&self, input: &StackInput, estimate: &Estimate) -> Report {
         let [asked, used] = self.device.map(str::to_owned);
         let given = self.lights_file;
         let refit = self.settings.refit_of(given.is_some()).is_some();
@@ -71,6 +75,7 @@ impl RunDescription<'_> {
             color: self.reading.color,
             plan: input.plan.clone(),
             lights_from: lights_label(given, refit),
+            expected_errors: ExpectedErrors::of(estimate, &input.mask, given.is_some()),
             device: used,
             weights: WeightHashes::new(self.weights, given.is_some()),
             settings: ReportSettings {
@@ -101,11 +106,12 @@ pub fn result_files(
     let Estimate {
         lights,
         normals,
+        normal_errors,
         albedo,
     } = estimate;
     let names = &report.inputs;
     let (width, height) = (input.stack.width(), input.stack.height());
-    Ok(vec![
+    let mut files = vec![
         (
             "normals.png",
             normals_png(normals, report.settings.normal_format)?,
@@ -116,6 +122,10 @@ pub fn result_files(
         ("lights.svg", lights_svg(lights)),
         ("albedo.png", albedo_png(albedo, width, height)?),
         ("mask.png", mask_png(&input.mask)?),
-        ("report.json", report_json(report)?),
-    ])
+    ];
+    if let Some(errors) = normal_errors {
+        files.push(("normals-error.png", normal_errors_png(errors, &input.mask)?));
+    }
+    files.push(("report.json", report_json(report)?));
+    Ok(files)
 }

@@ -1,11 +1,12 @@
 use crate::observer::{Observer, PipelineStage, report};
 use crate::{
-    LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Weights, light_cost,
-    normal_cost,
+    AveragedNormals, LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Weights,
+    light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
-    CalibratedStack, Estimate, EstimateSettings, ImageStack, Light, Mask, albedo_map, refit_lights,
+    CalibratedStack, Estimate, EstimateSettings, ImageStack, Light, LightCoverage, Mask,
+    albedo_map, expected_normal_error, refit_lights,
 };
 
 /// What an estimate starts from.
@@ -84,26 +85,41 @@ impl Estimator {
         if let Some(refit) = settings.refit_of(given.is_some()) {
             let views = settings.quality.refit_views();
             let calibrated = CalibratedStack::new(stack, mask, &lights)?;
-            let normals = self
+            let averaged = self
                 .normal
                 .estimate(calibrated, views, stage, observer)
                 .await?;
             report(observer, PipelineStage::Refit, 0.0).await?;
-            lights = refit_lights(stack, mask, &normals, &lights, refit)?;
+            lights = refit_lights(stack, mask, &averaged.normals, &lights, refit)?;
             stage = PipelineStage::FinalNormals;
         }
         let views = settings.quality.views();
         let calibrated = CalibratedStack::new(stack, mask, &lights)?;
-        let normals = self
+        let AveragedNormals { normals, spread } = self
             .normal
             .estimate(calibrated, views, stage, observer)
             .await?;
         report(observer, PipelineStage::Albedo, 0.0).await?;
+        // All views are led astray alike then, and what they say of each other means nothing.
+        let is_flat = LightCoverage::of(&lights).is_some_and(|coverage| coverage.is_flat());
         let albedo = albedo_map(stack, mask, &normals, &lights)?;
         Ok(Estimate {
             lights,
             normals,
+            normal_errors: spread
+                .filter(|_| !is_flat)
+                .map(|spread| errors(&spread, mask)),
             albedo,
         })
     }
+}
+
+/// Expected errors in degrees inside the mask, zero outside.
+fn errors(spread: &[f32], mask: &Mask) -> Vec<f32> {
+    let pixels = spread.iter().zip(mask.inside());
+    let error = |(&spread, &inside): (&f32, &bool)| match inside {
+        true => expected_normal_error(spread),
+        false => 0.0,
+    };
+    pixels.map(error).collect()
 }

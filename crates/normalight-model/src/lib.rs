@@ -83,6 +83,7 @@ pub use light_stage::LightOptions;
 pub use light_view::LightView;
 pub use loaded::{LoadedLightNetwork, LoadedNetwork, LoadedNormalNetwork};
 pub use normal_network::{FusedFeatures, NormalNetwork};
+pub use normal_stage::AveragedNormals;
 pub use normalight_core::{Estimate, EstimateSettings, Quality};
 pub use observer::{NoopObserver, Observer, PipelineStage, Progress, StageTimes};
 pub use operation::OperationLayer;

@@ -4,7 +4,9 @@ use crate::{
     FusedFeatures, LoadedNormalNetwork, ModelError, NormalArchitecture, NormalInput, NormalNetwork,
 };
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{CalibratedStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3};
+use normalight_core::{
+    CalibratedStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3, spread_order,
+};
 
 /// Images that go through the network together: bounds the memory, whatever the size of the stack.
 const BATCH: usize = 8;
@@ -15,6 +17,16 @@ const GROUP: usize = 24;
 
 /// Side of the part of a tile that is kept; objects up to this size need one tile.
 const TILE: usize = 256;
+
+/// Normals, and how far apart those are that they are means of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AveragedNormals {
+    /// Unit normals, zero outside the mask.
+    pub normals: NormalMap,
+    /// Root mean square angle in degrees between a pixel's normal in one view and group of images and their mean, one a
+    /// pixel, rows from the top, zero outside the mask. `None` where there is only one.
+    pub spread: Option<Vec<f32>>,
+}
 
 impl LoadedNormalNetwork {
     /// Estimates the normals of a stack under known lights, tile by tile, as [`NormalInput`] encodes it.
@@ -31,7 +43,7 @@ impl LoadedNormalNetwork {
         views: &[Symmetry],
         stage: PipelineStage,
         observer: &mut impl Observer,
-    ) -> Result<NormalMap, ModelError> {
+    ) -> Result<AveragedNormals, ModelError> {
         let (stack, mask) = (calibrated.stack(), calibrated.mask());
         let (width, height) = (stack.width(), stack.height());
         let mut normals = vec![Vec3::ZERO; width * height];
@@ -67,7 +79,9 @@ impl LoadedNormalNetwork {
                 }
             }
         }
-        if views.len() * groups.len() > 1 {
+        let votes = views.len() * groups.len();
+        let spread = (votes > 1).then(|| spread(&normals, votes));
+        if votes > 1 {
             for (normal, &inside) in normals.iter_mut().zip(mask.inside()) {
                 if inside {
                     *normal = normal.normalize_or(Vec3::Z);
@@ -75,21 +89,30 @@ impl LoadedNormalNetwork {
             }
         }
         report(observer, stage, 1.0).await?;
-        Ok(NormalMap::new(width, height, normals))
+        Ok(AveragedNormals {
+            normals: NormalMap::new(width, height, normals),
+            spread,
+        })
     }
 }
 
-/// Deals images into groups of about [`GROUP`], each with lights from all sides. Lamps often go round or along rows,
-/// so dealing one after the other could give a group the left column of lights only; steps of the golden ratio
-/// spread every period over all groups.
+/// Root mean square angle in degrees between unit vectors and their mean, of the sums of `votes` of them each; as an estimate
+/// of what more of them would have.
+fn spread(sums: &[Vec3], votes: usize) -> Vec<f32> {
+    let votes = votes as f32;
+    let spread = |sum: &Vec3| {
+        let apart = (1.0 - sum.length() / votes).max(0.0);
+        // For small angles a vector at angle a adds cos a = 1 - a^2 / 2 to the sum.
+        (2.0 * apart * votes / (votes - 1.0)).sqrt().to_degrees()
+    };
+    let inside = |sum: &Vec3| if *sum == Vec3::ZERO { 0.0 } else { spread(sum) };
+    sums.iter().map(inside).collect()
+}
+
+/// Deals images into groups of about [`GROUP`], each with lights from all sides.
 fn groups(images: usize) -> Vec<Vec<usize>> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let count = ((images + GROUP / 2) / GROUP).max(1);
-    let mut order: Vec<usize> = (0..images).collect();
-    order.sort_by(|&a, &b| {
-        let place = |image: usize| (image as f64 * GOLDEN).fract();
-        place(a).total_cmp(&place(b))
-    });
+    let order = spread_order(images);
     (0..count)
         .map(|group| {
             let mut group = order[group * images / count..(group + 1) * images / count].to_vec();
@@ -235,6 +258,16 @@ impl<'a> TileView<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn spread_is_the_angle_between_votes() {
+        // Two votes, each `a` from their mean: with one degree of freedom less, a times the root of two.
+        let at =
+            |degrees: f32| Vec3::new(degrees.to_radians().sin(), 0.0, degrees.to_radians().cos());
+        let found = spread(&[at(-6.0) + at(6.0), at(3.0) + at(3.0), Vec3::ZERO], 2);
+        assert!((found[0] - 6.0 * 2f32.sqrt()).abs() < 0.02, "{found:?}");
+        assert!(found[1] < 0.05 && found[2] == 0.0);
+    }
 
     #[test]
     fn groups_hold_every_image_once() {

@@ -145,7 +145,7 @@ impl Untrained {
         let estimated = self
             .loaded
             .estimate(calibrated, views, PipelineStage::Normals, observer);
-        let map = pollster::block_on(estimated)?;
+        let map = pollster::block_on(estimated)?.normals;
         let rows = map.normals().chunks_exact(map.width());
         Ok(rows.map(<[Vec3]>::to_vec).collect())
     }

@@ -107,7 +107,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let find_normals = |lights: &[Light], view: Symmetry| {
             let calibrated = CalibratedStack::new(&stack, &mask, lights)?;
             let stage = PipelineStage::Normals;
-            pollster::block_on(normal.estimate(calibrated, &[view], stage, &mut NoopObserver))
+            let (views, mut quiet) = ([view], NoopObserver);
+            let found = normal.estimate(calibrated, &views, stage, &mut quiet);
+            pollster::block_on(found).map(|averaged| averaged.normals)
         };
         let mut first: Option<[NormalMap; 2]> = None;
         let mut all_lights = vec![

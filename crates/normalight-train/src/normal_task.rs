@@ -177,13 +177,13 @@ impl Task for NormalTask {
             let lights = disturbed(&self.settings, &sample.lights, index as u64);
             let calibrated = CalibratedStack::new(&stack, &mask, &lights)?;
             let views = Quality::Fast.views();
-            let normals = pollster::block_on(loaded.estimate(
+            let found = pollster::block_on(loaded.estimate(
                 calibrated,
                 views,
                 PipelineStage::Normals,
                 &mut NoopObserver,
             ))?;
-            let error = normal_error(&normals, &sample.to_normal_map(), &mask)?;
+            let error = normal_error(&found.normals, &sample.to_normal_map(), &mask)?;
             sum += error.mean;
             for (share, found) in shares.iter_mut().zip(error.shares) {
                 *share += found / objects.len() as f32;
@@ -276,14 +276,14 @@ mod tests {
             let calibrated = CalibratedStack::new(&stack, &mask, &lights).unwrap();
             let loaded = task.loaded(&training, &device);
             let views = Quality::Fast.views();
-            let normals = pollster::block_on(loaded.estimate(
+            let averaged = pollster::block_on(loaded.estimate(
                 calibrated,
                 views,
                 PipelineStage::Normals,
                 &mut NoopObserver,
             ))
             .unwrap();
-            for (found, shown) in normals.normals().iter().zip(shown.chunks_exact(3)) {
+            for (found, shown) in averaged.normals.normals().iter().zip(shown.chunks_exact(3)) {
                 // Rounding grows where the vector before it gets unit length is short.
                 assert!(found.distance(Vec3::from_slice(shown)) < 1e-4);
             }

@@ -90,6 +90,9 @@ impl Engine {
                 &mut observer,
             )
             .await?;
+        if given.is_none() {
+            input.judge_coverage(&estimate.lights);
+        }
         let [asked, used] = &self.device;
         let description = RunDescription {
             reading: &reading,
@@ -103,7 +106,7 @@ impl Engine {
         let run = Run {
             input: &input,
             estimate: &estimate,
-            report: description.report(&input),
+            report: description.report(&input, &estimate),
         };
         Ok(Estimated::new(&run)?.into_ts()?)
     }

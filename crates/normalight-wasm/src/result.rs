@@ -5,7 +5,8 @@ use crate::maps::FloatMap;
 use crate::mask::MaskOrigin;
 use js_sys::Uint8Array;
 use normalight_io::{
-    InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba, result_files,
+    ExpectedErrors, InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba,
+    result_files,
 };
 use normalight_model::{Estimate, Quality};
 use serde::Serialize;
@@ -46,6 +47,11 @@ pub struct Estimated {
     normal_map: FloatMap,
     /// Linear RGB up to one scale; zero outside the object.
     albedo_map: FloatMap,
+    /// Expected error of each normal in degrees, one a pixel, zero outside the object; not with quality `fast`.
+    #[tsify(optional)]
+    normal_errors: Option<FloatMap>,
+    /// Mean of the errors that are to be expected, in degrees.
+    expected_errors: ExpectedErrors,
     /// The normals as 8-bit RGBA, transparent outside the object; rows from the top.
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Uint8Array<ArrayBuffer>")]
@@ -128,6 +134,9 @@ impl Estimated {
             albedo_map: FloatMap::new(width, height, |pixel| {
                 [0, 1, 2].map(|channel| estimate.albedo[channel * width * height + pixel])
             }),
+            normal_errors: (estimate.normal_errors.as_ref())
+                .map(|errors| FloatMap::new(width, height, |pixel| [errors[pixel]])),
+            expected_errors: report.expected_errors,
             normals: Uint8Array::from(normals.as_slice()),
             albedo: Uint8Array::from(albedo.as_slice()),
             files: result_files(input, estimate, report)?

@@ -17,7 +17,7 @@ pub struct Settings {
     pub(crate) color: ColorMode,
     /// Which pixels belong to the object, where no file says so.
     pub(crate) mask: MaskSetting,
-    /// Use only this many images, evenly spaced.
+    /// Use only this many images, spread over the series.
     pub(crate) images: Option<usize>,
     /// Which way the axes of a light file point: `x-right,y-up,z-out` (ours), `x-right,y-down,z-in`, ...
     pub(crate) light_axes: String,

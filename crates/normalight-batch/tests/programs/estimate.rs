@@ -112,6 +112,7 @@ fn results(
         .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
         .collect();
     let report = Report {
+        expected_errors: Default::default(),
         version: "test".to_owned(),
         width: 40,
         height: 20,

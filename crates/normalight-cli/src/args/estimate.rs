@@ -42,7 +42,7 @@ pub(crate) struct EstimateArgs {
     /// Each of x, y and z: right, left, up, down, out (to the camera) or in. Default: x-right,y-up,z-out.
     #[arg(long, value_name = "AXES", requires = "lights", default_value_t)]
     pub(crate) light_axes: LightAxes,
-    /// Use only this many photographs, evenly spaced.
+    /// Use only this many photographs, spread over the series.
     #[arg(long, value_name = "N")]
     pub(crate) images: Option<usize>,
     /// Lay photographs that a moved camera took over the others (shifts only), instead of refusing them.

@@ -28,10 +28,10 @@ pub(crate) struct EvaluateArgs {
         default_value = "uncalibrated"
     )]
     pub(crate) methods: Vec<MethodChoice>,
-    /// Use only this many photographs, evenly spaced; several numbers give a table each.
+    /// Use only this many photographs, spread over the series; several numbers give a table each.
     #[arg(long, value_name = "N", value_delimiter = ',')]
     pub(crate) images: Vec<usize>,
-    /// Instead of evenly spaced photographs take so many random choices of them, and their mean.
+    /// Instead of photographs spread over the series take so many random choices of them, and their mean.
     #[arg(long, value_name = "N", requires = "images", value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub(crate) subsets: Option<u64>,
     /// Scale objects down to at most so many pixels; the paper takes 128.

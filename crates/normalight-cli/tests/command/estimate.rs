@@ -109,12 +109,12 @@ fn the_same_photographs_give_the_same_files() {
 }
 
 #[test]
-fn some_images_are_evenly_spaced() {
+fn some_images_are_spread_over_the_series() {
     let (_place, photographs, out) = prepared();
     said(estimate(&photographs, &out, &["--images", "4"]));
     let lights = read_csv(&out.join("lights.csv"));
     let names: Vec<&str> = lights.iter().map(|light| light.file.as_str()).collect();
-    assert_eq!(names, ["001.png", "003.png", "005.png", "007.png"]);
+    assert_eq!(names, ["001.png", "003.png", "006.png", "008.png"]);
 }
 
 #[test]
@@ -234,6 +234,16 @@ fn the_quality_is_what_was_asked_for() {
         assert!(said.contains(&format!("quality: {quality}\n")), "{said}");
         let report = read_json(&out.join("report.json"));
         assert_eq!(report["settings"]["quality"], quality);
+        // A single view says nothing of its normals.
+        let errors = &report["expected_errors"];
+        assert!(
+            errors["lights"]
+                .as_f64()
+                .is_some_and(|degrees| degrees > 0.0)
+        );
+        assert_eq!(errors["normals"].is_null(), quality == "fast");
+        assert_eq!(out.join("normals-error.png").exists(), quality != "fast");
+        assert!(said.contains("errors:  lights "), "{said}");
         read_npy(&out.join("normals.npy"))
     });
     assert!(fast != default && default != best);

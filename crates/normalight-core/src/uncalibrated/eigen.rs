@@ -2,7 +2,7 @@
 
 /// Eigenvalues, the largest first, and their eigenvectors, by Jacobi's rotations (Golub and Van Loan, "Matrix
 /// Computations", 8.5): of a few rows.
-pub(super) fn eigenpairs(mut m: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
+pub(crate) fn eigenpairs(mut m: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
     let size = m.len();
     let mut vectors: Vec<Vec<f64>> = (0..size).map(|k| unit(size, k)).collect();
     // Converges quadratically: ten rounds are many.

@@ -67,7 +67,7 @@ fn objects_in(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
 }
 
 /// Reads an object's folder: images (linear), mask, lights and true normals; `images` keeps only
-/// that many, evenly spaced, with their lights.
+/// that many, spread over them, with their lights.
 ///
 /// # Errors
 /// Those of [`read_paths`] and [`read_lights_path`](super::read_lights_path); [`IoError::Read`]

@@ -237,6 +237,14 @@ impl fmt::Display for Notice {
                 f,
                 "{file}: the photographs contradict these lights, since the outline of the object does not brighten towards them; look whether each belongs to its photograph, and how their axes point (--light-axes)"
             ),
+            Self::LightsInPlane { degrees } => write!(
+                f,
+                "all lights lie nearly in one plane with the object (within {degrees:.0} degrees), so which way its surface leans across that plane cannot be told, and normals may be far off; move the lamp to all sides"
+            ),
+            Self::LightsOneSided { side, dark } => write!(
+                f,
+                "all lights came from {side} (there is none in {dark:.0} degrees of the circle); what faces away from them was never lit, and its normals are a guess"
+            ),
             Self::LightsAsAngles { file, unit } => write!(
                 f,
                 "{file}: angles were taken as {unit}, the azimuth from right towards up"

@@ -4,9 +4,10 @@ use normalight_core::{
     NormalMap, Quality, Samples, StackImage, Transfer, Vec3,
 };
 use normalight_io::{
-    ColorMode, InputPlan, IoError, NormalFormat, OutputName, ReadOptions, Report, ReportSettings,
-    RunDescription, StackInput, StageSeconds, WeightHashes, albedo_png, albedo_rgba, decode_mask,
-    mask_png, normals_npy, normals_png, normals_rgba, report_json, result_files,
+    ColorMode, ExpectedErrors, InputPlan, IoError, NormalFormat, OutputName, ReadOptions, Report,
+    ReportSettings, RunDescription, StackInput, StageSeconds, WeightHashes, albedo_png,
+    albedo_rgba, decode_mask, mask_png, normals_npy, normals_png, normals_rgba, report_json,
+    result_files,
 };
 
 fn map() -> NormalMap {
@@ -109,6 +110,7 @@ fn reports_are_json() {
         device: "cpu".into(),
         plan: InputPlan::default(),
         lights_from: "network".into(),
+        expected_errors: ExpectedErrors::default(),
         weights: WeightHashes {
             light: Some("ab".into()),
             normal: None,
@@ -173,26 +175,30 @@ fn reports_say_what_was_done_with_given_lights() {
         normal_format: NormalFormat::OpenGl,
         seconds: Vec::new(),
     };
-    let estimated = run.report(&input);
+    let estimate = Estimate {
+        lights: vec![Light::new(Vec3::Z, 1.0); 3],
+        normals: NormalMap::new(16, 16, vec![Vec3::Z; 256]),
+        normal_errors: Some(vec![7.5; 256]),
+        albedo: vec![0.5; 3 * 256],
+    };
+    let estimated = run.report(&input, &estimate);
+    assert_eq!(estimated.expected_errors.normals, Some(7.5));
+    assert!(estimated.expected_errors.lights.is_some());
     assert!(estimated.settings.refit && estimated.lights_from.contains("refitted"));
     assert_eq!(estimated.weights.light.as_deref(), Some("ab"));
     assert_eq!(estimated.inputs, ["a.png", "b.png", "c.png"]);
     run.lights_file = Some("lights.lp");
-    let given = run.report(&input);
+    let given = run.report(&input, &estimate);
+    assert_eq!(given.expected_errors.lights, None);
     assert!(!given.settings.refit);
     assert_eq!(given.lights_from, "lights.lp");
     assert_eq!(given.weights.light, None);
     assert_eq!(given.settings.mask, "auto");
 
-    let estimate = Estimate {
-        lights: vec![Light::new(Vec3::Z, 1.0); 3],
-        normals: NormalMap::new(16, 16, vec![Vec3::Z; 256]),
-        albedo: vec![0.5; 3 * 256],
-    };
     let files = result_files(&input, &estimate, &given).unwrap();
     let names: std::collections::HashSet<OutputName> = files
         .iter()
         .map(|(name, _)| serde_json::from_value((*name).into()).unwrap())
         .collect();
-    assert_eq!(names.len(), 8);
+    assert_eq!(names.len(), 9);
 }

@@ -90,7 +90,7 @@ fn benchmark_folders_are_listed() {
         [objects[1].clone()]
     );
     let few = read_diligent_object(&objects[0], Some(8)).unwrap();
-    assert_eq!(few.input.picked, [0, 12, 24, 36, 48, 60, 72, 84]);
+    assert_eq!(few.input.picked, [0, 13, 26, 34, 47, 68, 81, 89]);
     assert_eq!((few.lights.len(), few.input.stack.len()), (8, 8));
 }
 

@@ -15,8 +15,8 @@ pub const IMAGES: usize = 8;
 /// Side of the images in pixels.
 pub const SIZE: usize = 48;
 
-/// Every file that `estimate` leaves.
-pub const OUTPUTS: [&str; 8] = [
+/// Every file that `estimate` leaves, with more than one view.
+pub const OUTPUTS: [&str; 9] = [
     "normals.png",
     "normals.npy",
     "lights.csv",
@@ -24,6 +24,7 @@ pub const OUTPUTS: [&str; 8] = [
     "lights.svg",
     "albedo.png",
     "mask.png",
+    "normals-error.png",
     "report.json",
 ];
 
