@@ -158,10 +158,10 @@ fn lights_beside_images() {
     }
     // Names beside lights decide, whatever else the file covers.
     let csv = "file,x,y,z,intensity,confidence\n".to_owned()
-        + &[6, 4, 2, 0, 7]
+        + &[7, 5, 2, 0, 6]
             .map(|k| format!("{k}.png,{k},0,9,1,1\n"))
             .concat();
     let named = input.read_lights("lights.csv", csv.as_bytes()).unwrap();
     assert_eq!(named.len(), 4);
-    assert!((named[3].direction.x / named[3].direction.z - 6.0 / 9.0).abs() < 1e-6);
+    assert!((named[3].direction.x / named[3].direction.z - 7.0 / 9.0).abs() < 1e-6);
 }
