@@ -127,8 +127,8 @@ function showFacts(estimate: Estimate): void {
 /** How far off lights and normals may be, in the mean. */
 function errorWords({ expectedErrors: { lights, normals } }: Estimate): string {
   const words = [
-    ...(lights === null ? [] : [`lights ${lights.toFixed(0)}°`]),
-    ...(normals === null ? [] : [`normals ${normals.toFixed(0)}°`]),
+    ...(typeof lights === "number" ? [`lights ${lights.toFixed(0)}°`] : []),
+    ...(typeof normals === "number" ? [`normals ${normals.toFixed(0)}°`] : []),
   ];
   return words.join(", ") || "unknown";
 }

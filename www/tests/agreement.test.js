@@ -75,11 +75,11 @@ async function on(device) {
 }
 
 /**
- * A report without what differs between devices: which one it was, and the time.
+ * A report without what differs between devices: which one it was, the time, and last digits.
  * @param {any} report
  */
 function comparable(report) {
-  const { device, seconds, settings, ...rest } = report;
+  const { device, seconds, settings, expected_errors, ...rest } = report;
   const { device: asked, ...others } = settings;
   assert.ok(device && asked && seconds.length > 0);
   for (const { stage } of seconds) assert.ok(stage === "start" || STAGES.includes(stage), stage);
@@ -87,6 +87,7 @@ function comparable(report) {
   // Before it reads, the command starts up; the page has done so long ago.
   return {
     ...rest,
+    errors: Object.values(expected_errors).map((degrees) => degrees && Number(degrees).toFixed(1)),
     settings: others,
     stages: stages.filter((/** @type {string} */ stage) => stage !== "start"),
   };

@@ -185,14 +185,19 @@ test("in forced colours the chosen setting can be told from the others", async (
   const { page: tab } = page;
   await tab.emulateMedia({ forcedColors: "active" });
   const colours = await tab.evaluate(() =>
-    [...document.querySelectorAll('input[name="quality"] + span')].map((span) => {
-      const { backgroundColor, color } = getComputedStyle(span);
-      return `${backgroundColor} ${color}`;
+    [":checked", ":not(:checked)"].map((state) => {
+      const spans = [...document.querySelectorAll(`input[name="quality"]${state} + span`)];
+      return spans.map((span) => {
+        const { backgroundColor, color } = getComputedStyle(span);
+        return `${backgroundColor} ${color}`;
+      });
     }),
   );
   await tab.emulateMedia({ forcedColors: "none" });
-  assert.notEqual(colours[1], colours[0]);
-  assert.equal(colours[2], colours[0]);
+  const [chosen, others] = colours;
+  assert.deepEqual([chosen?.length, others?.length], [1, 2]);
+  assert.ok(!others?.includes(chosen?.[0] ?? ""), String(colours));
+  assert.equal(others?.[0], others?.[1]);
 });
 
 test("at 360 pixels no words of ours are cut off", async () => {

@@ -38,11 +38,13 @@ pub struct Report {
 /// Mean errors in degrees that rendered objects had where the program was as much in doubt; `None` where nothing is known of
 /// them: lights that were given, normals of a single view.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "typescript", derive(tsify::Tsify), tsify(missing_as_null))]
+#[cfg_attr(feature = "typescript", derive(tsify::Tsify))]
 pub struct ExpectedErrors {
     /// Of the lights' directions.
+    #[cfg_attr(feature = "typescript", tsify(type = "number | null | undefined"))]
     pub lights: Option<f32>,
     /// Of the normals.
+    #[cfg_attr(feature = "typescript", tsify(type = "number | null | undefined"))]
     pub normals: Option<f32>,
 }
 
