@@ -239,11 +239,11 @@ export interface ExpectedErrors {
     /**
      * Of the lights' directions.
      */
-    lights: number | null;
+    lights: number | null | undefined;
     /**
      * Of the normals.
      */
-    normals: number | null;
+    normals: number | null | undefined;
 }
 
 /**
