@@ -63,7 +63,7 @@ test("pictures of a sample's size on the gpu agree with the command", async () =
   await page.quality("fast");
   await page.images("all");
   await page.upload(files);
-  await page.page.check(`input[name="color"][value="${sample.color}"]`, { force: true });
+  await page.page.click(`label:has(input[name="color"][value="${sample.color}"])`);
   await page.thumbnails(files.length);
   assert.equal(await page.estimate(), "");
   await assertAgreement("gpu", commandResults(files, "--color", sample.color, "--quality", "fast"));

@@ -45,7 +45,7 @@ async function given(button) {
 /** Chooses the way green points. @param {"opengl" | "directx"} format */
 async function green(format) {
   const before = await tab.getAttribute('#downloads a[download="normals.png"]', "href");
-  await tab.check(`input[name="normal-format"][value="${format}"]`, { force: true });
+  await tab.click(`label:has(input[name="normal-format"][value="${format}"])`);
   await tab.waitForFunction(
     (address) =>
       document.querySelector('#downloads a[download="normals.png"]')?.getAttribute("href") !== address,

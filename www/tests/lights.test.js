@@ -154,7 +154,7 @@ test("a rig is kept, survives a reload, is renamed, used for the next object, an
   await tab().reload();
   await page.ready();
   await page.quality("fast");
-  await tab().check('input[name="lights"][value="rig"]', { force: true });
+  await tab().click('label:has(input[name="lights"][value="rig"])');
   assert.equal(await tab().locator("#rig-select option").textContent(), "arch (15 lights)");
   await tab().fill("#rig-name", "dome");
   await tab().locator("#rig-name").blur();

@@ -71,7 +71,7 @@ test("a sample says itself how its values relate to light, until the user's file
   const { page: tab } = page;
   const color = () => tab.locator('input[name="color"]:checked').getAttribute("value");
   await tab.click("#clear");
-  await tab.check('input[name="color"][value="srgb"]', { force: true });
+  await tab.click('label:has(input[name="color"][value="srgb"])');
   await page.sample(statue);
   assert.equal(await color(), statue.color);
   await page.sample(relief);
@@ -80,7 +80,7 @@ test("a sample says itself how its values relate to light, until the user's file
   await page.thumbnails(3);
   assert.equal(await color(), "srgb");
   assert.equal(await tab.locator(".sample[aria-current]").count(), 0);
-  await tab.check('input[name="color"][value="auto"]', { force: true });
+  await tab.click('label:has(input[name="color"][value="auto"])');
   page.assertQuiet();
 });
 

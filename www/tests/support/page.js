@@ -68,18 +68,18 @@ export class Page {
 
   /** Chooses a device. @param {"auto" | "gpu" | "cpu"} device */
   async device(device) {
-    await this.page.check(`input[name="device"][value="${device}"]`, { force: true });
+    await this.page.click(`label:has(input[name="device"][value="${device}"])`);
     return await this.ready();
   }
 
   /** Chooses a quality. @param {import("normalight").Quality} quality */
   async quality(quality) {
-    await this.page.check(`input[name="quality"][value="${quality}"]`, { force: true });
+    await this.page.click(`label:has(input[name="quality"][value="${quality}"])`);
   }
 
   /** Chooses how many photographs are used. @param {"all" | "48" | "24" | "12"} images */
   async images(images) {
-    await this.page.check(`input[name="images"][value="${images}"]`, { force: true });
+    await this.page.click(`label:has(input[name="images"][value="${images}"])`);
   }
 
   /** Hands files to the page as a user does. @param {import("./files.js").TestFile[]} files */
