@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { STAGES } from "normalight";
-import { lightDifference, normalDifference } from "./support/compare.js";
+import { lightDifference, normalDifference, rounded } from "./support/compare.js";
 import { commandResults, goldenStack, sampleFolder, sampleList } from "./support/files.js";
 import { Page } from "./support/page.js";
 
@@ -106,7 +106,7 @@ async function assertAgreement(device, results) {
   };
   const lights = lightDifference(result("lights.csv"), await page.download("lights.csv"));
   const normals = normalDifference(result("normals.npy"), await page.download("normals.npy"));
-  const report = JSON.parse(String(await page.download("report.json")));
+  const report = JSON.parse(String(await page.download("report.json")), rounded);
   const seconds = report.seconds.map(
     (/** @type {{ stage: string, seconds: number }} */ stage) => `${stage.stage} ${stage.seconds.toFixed(2)}`,
   );
@@ -119,7 +119,7 @@ async function assertAgreement(device, results) {
   assert.ok(lights.intensity < 0.01, `intensities differ by ${lights.intensity}`);
 
   assert.match(report.device, device === "gpu" ? /^GPU \(WebGPU, .+\)$/ : /^CPU/);
-  const native = JSON.parse(String(result("report.json")));
+  const native = JSON.parse(String(result("report.json")), rounded);
   assert.equal(report.settings.device, device);
   assert.deepEqual(comparable(report), comparable(native));
   page.assertQuiet();

@@ -72,3 +72,6 @@ function angle(a, b) {
 function three(values) {
   return [values[0] ?? 0, values[1] ?? 0, values[2] ?? 0];
 }
+
+/** For JSON.parse: numbers without the digits in which processors differ. @param {string} _key @param {unknown} value */
+export const rounded = (_key, value) => (typeof value === "number" ? Number(value.toPrecision(4)) : value);
