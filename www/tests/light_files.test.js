@@ -1,8 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { modules } from "./support/modules.js";
+import { source } from "./support/source.js";
 
-const [text, coverageModule, light] = await modules("lights/light_text", "lights/coverage", "lights/light");
+const [text, coverageModule, light] = await Promise.all([
+  source("lights/light_text.ts"),
+  source("lights/coverage.ts"),
+  source("lights/light.ts"),
+]);
 const { toCsv, toLp, toJson, lightsOf } = text;
 const { coverage, widest } = coverageModule;
 

@@ -1,15 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { inflateSync } from "node:zlib";
-import { modules } from "./support/modules.js";
+import { source } from "./support/source.js";
 
-const [tilesModule, historyModule, shapes, operations, png] = await modules(
-  "mask/tiles",
-  "mask/history",
-  "mask/shapes",
-  "mask/operations",
-  "mask/png",
-);
+const [tilesModule, historyModule, shapes, operations, png] = await Promise.all([
+  source("mask/tiles.ts"),
+  source("mask/history.ts"),
+  source("mask/shapes.ts"),
+  source("mask/operations.ts"),
+  source("mask/png.ts"),
+]);
 const { Tiles, TILE } = tilesModule;
 const { History } = historyModule;
 const { stroke, polygon } = shapes;

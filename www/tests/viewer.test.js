@@ -14,11 +14,7 @@ let tab;
 before(async () => {
   page = await Page.open({ webgpu: false });
   tab = page.page;
-  await page.device("cpu");
-  await page.quality("fast");
-  await page.images("12");
-  await page.sample(statue);
-  assert.equal(await page.estimate(), "");
+  await page.estimateSample(statue);
   // Nothing below takes long.
   tab.setDefaultTimeout(20_000);
   await tab.waitForSelector("#viewer-map");
@@ -279,11 +275,7 @@ test("without WebGL2 the processor relights, and the page says that the view in 
   await tab.reload();
   tab.setDefaultTimeout(120_000);
   await page.ready();
-  await page.device("cpu");
-  await page.quality("fast");
-  await page.images("12");
-  await page.sample(statue);
-  assert.equal(await page.estimate(), "");
+  await page.estimateSample(statue);
   tab.setDefaultTimeout(20_000);
   assert.match((await tab.textContent("#relight-words")) ?? "", /no WebGL2/);
   const before = await seen();

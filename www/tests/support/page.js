@@ -97,6 +97,15 @@ export class Page {
     await this.thumbnails(photographs.length + 1);
   }
 
+  /** The result of twelve photographs of a sample, as quick as can be. @param {Parameters<Page["sample"]>[0]} sample */
+  async estimateSample(sample) {
+    await this.device("cpu");
+    await this.quality("fast");
+    await this.images("12");
+    await this.sample(sample);
+    assert.equal(await this.estimate(), "");
+  }
+
   /** Chooses a file for a setting. @param {"mask" | "lights"} setting @param {import("./files.js").TestFile} file */
   async choose(setting, { name, bytes }) {
     const coming = this.page.waitForEvent("filechooser");
