@@ -7,7 +7,7 @@ mod common;
 mod networks;
 
 use burn::tensor::Device;
-use common::{LIGHT, NORMAL, contents, text, whole};
+use common::{LIGHT, NORMAL, alone, contents, text, whole};
 use normalight_model::Genotypes;
 use normalight_run::{Caller, RunEvent, RunState, StepsOn, Summary};
 use normalight_search::{SearchRecipe, SearchRun, derive_again, search};
@@ -45,6 +45,7 @@ fn run(
         },
     };
     let mut losses = Vec::new();
+    let _alone = alone();
     let summary = search(&run, &Device::flex(), |event| match event {
         RunEvent::Step(report) => {
             losses.push(report.loss);

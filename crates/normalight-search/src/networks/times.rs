@@ -3,8 +3,9 @@ use super::halving::{NetworkSearchEvent, Observe};
 use super::recipe::{IMAGES, NetworkSearchRecipe};
 use super::space::Candidate;
 use crate::folder::Folder;
-use burn::tensor::{Device, Distribution, Tensor};
+use burn::tensor::{Device, Tensor};
 use normalight_model::{LightNetwork, NormalNetwork};
+use normalight_run::seeded;
 use normalight_train::{NetworkRecipe, TrainError, TrainRecipe};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -53,13 +54,8 @@ pub(super) fn measured(
 
 /// Microseconds of a network for ten images, as it is stored: random weights take as long as any.
 fn microseconds(recipe: &TrainRecipe, device: &Device) -> Result<u64, TrainError> {
-    let noise = |side: usize, channels: usize| {
-        Tensor::<4>::random(
-            [IMAGES, side, side, channels],
-            Distribution::Default,
-            device,
-        )
-    };
+    let white =
+        |side: usize, channels: usize| Tensor::<4>::ones([IMAGES, side, side, channels], device);
     let timed = |work: &dyn Fn() -> f32| {
         // Buffers are made the first time.
         work();
@@ -71,8 +67,10 @@ fn microseconds(recipe: &TrainRecipe, device: &Device) -> Result<u64, TrainError
     };
     Ok(match &recipe.network {
         NetworkRecipe::Normal(settings) => {
-            let network = NormalNetwork::new(&settings.architecture, true, device)?;
-            let input = noise(SIDE, settings.architecture.input_channels());
+            let network = seeded(device, recipe.seed, || {
+                NormalNetwork::new(&settings.architecture, true, device)
+            })?;
+            let input = white(SIDE, settings.architecture.input_channels());
             timed(&|| {
                 network
                     .regress(network.fuse(input.clone(), 1))
@@ -81,8 +79,10 @@ fn microseconds(recipe: &TrainRecipe, device: &Device) -> Result<u64, TrainError
             })
         }
         NetworkRecipe::Light(settings) => {
-            let network = LightNetwork::new(&settings.architecture, true, device)?;
-            let input = noise(settings.architecture.input_size, 4);
+            let network = seeded(device, recipe.seed, || {
+                LightNetwork::new(&settings.architecture, true, device)
+            })?;
+            let input = white(settings.architecture.input_size, 4);
             timed(&|| {
                 let own = network.features(input.clone());
                 let fused = own.clone().max_dim(0).expand(own.dims());
