@@ -11,7 +11,7 @@ export const browser: Platform = {
   advice,
   sendsFiles: true,
   resolve: (url) => new URL(url, globalThis.document?.baseURI ?? globalThis.location?.href).href,
-  fetchModule: (url, fresh) => fetch(url, { cache: fresh ? "no-store" : "default" }),
+  fetchAsset: (url, fresh) => fetch(url, { cache: fresh ? "no-store" : "default" }),
 };
 
 /** Starts the browser's worker. */

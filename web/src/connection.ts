@@ -1,5 +1,6 @@
 import { NormalightError } from "./errors.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
+import type { DeviceReport } from "./types.js";
 
 /** Time for a cancelled task to end by itself, in milliseconds; then its worker goes. */
 const GRACE = 2000;
@@ -33,6 +34,9 @@ export class Connection {
   #terminated: NormalightError | undefined;
   /** Whether the worker has ever said anything. */
   #heard = false;
+  #gpuFault: string | undefined;
+  /** Hears when another device computes than was said. */
+  onDevice: (device: DeviceReport) => void = () => undefined;
 
   /** @param advice what helps where a worker never says anything */
   constructor(worker: WorkerLike, advice = "") {
@@ -50,6 +54,11 @@ export class Connection {
   /** Whether the worker is gone: broken, stopped or closed. */
   get terminated(): boolean {
     return this.#terminated !== undefined;
+  }
+
+  /** The words of the crash if it may be the GPU's. */
+  get gpuFault(): string | undefined {
+    return this.#gpuFault;
   }
 
   /** Does a task. The one before must have ended. */
@@ -98,6 +107,9 @@ export class Connection {
       case "alive":
         void this.#watch(message.lock);
         break;
+      case "device":
+        this.onDevice(message.device);
+        break;
       case "load":
       case "progress":
       case "plan":
@@ -112,6 +124,7 @@ export class Connection {
         break;
       }
       case "crashed":
+        if (message.gpu) this.#gpuFault = message.message;
         this.terminate(crash(message.message));
     }
   }

@@ -1,10 +1,10 @@
 import type { WorkerLike } from "./connection.js";
-import type { FetchModule } from "./load.js";
+import type { FetchAsset } from "./fetch.js";
 import type { FromWorker, ToWorker } from "./protocol.js";
 import { serve } from "./worker.js";
 
 /** A worker that is none: its messages come from and go to the same thread. */
-export function startHere(fetchModule: FetchModule): WorkerLike {
+export function startHere(fetchAsset: FetchAsset): WorkerLike {
   let listener: (message: ToWorker) => void = () => undefined;
   let ended = false;
   // A message arrives later, as if it came from elsewhere.
@@ -16,7 +16,7 @@ export function startHere(fetchModule: FetchModule): WorkerLike {
         listener = heard;
       },
     },
-    fetchModule,
+    fetchAsset,
   );
   const worker: WorkerLike = {
     onmessage: null,

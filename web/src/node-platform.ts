@@ -14,11 +14,11 @@ export const node: Platform = {
   // A file is another thing on the other side of a thread.
   sendsFiles: false,
   resolve: (url) => (/^[a-z]{2,}:/i.test(String(url)) ? String(url) : pathToFileURL(String(url)).href),
-  fetchModule,
+  fetchAsset,
 };
 
-/** A module from the disk or a server, between which and us there is no cache. */
-export async function fetchModule(url: string): Promise<Response> {
+/** A module or weights from the disk or a server, between which and us there is no cache. */
+export async function fetchAsset(url: string): Promise<Response> {
   // Node.js 20 can do what the module needs, but does not yet do so unasked.
   if (process.versions.node.startsWith("20.")) setFlagsFromString("--experimental-wasm-relaxed-simd");
   if (!url.startsWith("file:")) return await fetch(url);

@@ -1,6 +1,6 @@
 // Where Node's thread begins.
 import { parentPort } from "node:worker_threads";
-import { fetchModule } from "./node-platform.js";
+import { fetchAsset } from "./node-platform.js";
 import { serve } from "./worker.js";
 
 const port = parentPort;
@@ -11,7 +11,7 @@ const served = serve(
     postMessage: (message, transfer) => port.postMessage(message, transfer),
     hear: (listener) => port.on("message", listener),
   },
-  fetchModule,
+  fetchAsset,
 );
 
 // Calls into the module that were under way when it broke down never end by themselves.

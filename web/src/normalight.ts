@@ -1,7 +1,7 @@
 import { browser } from "./browser.js";
 import { Connection, type Follow, type WorkerLike } from "./connection.js";
 import { NormalightError } from "./errors.js";
-import type { FetchModule } from "./load.js";
+import type { FetchAsset } from "./fetch.js";
 import type { Platform } from "./platform.js";
 import { Aggregate } from "./progress.js";
 import type { TaskName, Tasks } from "./protocol.js";
@@ -12,7 +12,6 @@ import type {
   CreateOptions,
   Derived,
   DeriveOptions,
-  DeviceChoice,
   DeviceReport,
   Estimate,
   EstimateOptions,
@@ -43,6 +42,8 @@ export class Normalight {
   readonly #platform: Platform;
   #connection: Connection | undefined;
   #device: DeviceReport | undefined;
+  /** Why no GPU is asked for any more. */
+  #gpuNotice: string | undefined;
   #queue: Promise<unknown> = Promise.resolve();
   #closed = false;
 
@@ -191,7 +192,12 @@ export class Normalight {
       follow.signal?.throwIfAborted();
       const prepared = await request;
       const connection = await this.#open(follow.signal);
-      return await connection.run(task, prepared, follow);
+      try {
+        return await connection.run(task, prepared, follow);
+      } catch (error) {
+        if (connection.gpuFault === undefined || this.#closed) throw error;
+        return await (await this.#open(follow.signal)).run(task, prepared, follow);
+      }
     });
     // A call that fails must not keep the next from its turn.
     this.#queue = turn.catch(() => undefined);
@@ -202,34 +208,32 @@ export class Normalight {
   async #open(signal?: AbortSignal): Promise<Connection> {
     if (this.#closed) throw closed();
     if (this.#connection && !this.#connection.terminated) return this.#connection;
-    const { device = "auto" } = this.#options;
-    try {
-      return await this.#start(device, signal);
-    } catch (error) {
-      const broken = error instanceof NormalightError && error.kind === "crashed";
-      if (!broken || device === "cpu" || this.#closed) throw error;
-      const connection = await this.#start("cpu", signal);
-      const notice = `WebGPU does not start (${error.message}), so the processor computes.`;
-      this.#device = { ...this.device, notice };
-      return connection;
-    }
+    return await this.#start(signal);
   }
 
-  async #start(device: DeviceChoice, signal?: AbortSignal): Promise<Connection> {
+  async #start(signal?: AbortSignal): Promise<Connection> {
     signal?.throwIfAborted();
-    const { onProgress, onLoad, wasmUrl, worker = true } = this.#options;
+    const fault = this.#connection?.gpuFault;
+    if (fault !== undefined) this.#gpuNotice = `The GPU failed (${fault}), so the processor computes.`;
+    const { device = "auto", onProgress, onLoad, wasmUrl, weights, worker = true } = this.#options;
     const connection = new Connection(
-      worker ? this.#platform.startWorker(this.#options) : await startHere(this.#platform.fetchModule),
+      worker ? this.#platform.startWorker(this.#options) : await startHere(this.#platform.fetchAsset),
       this.#platform.advice(),
     );
     this.#connection = connection;
+    connection.onDevice = (report) => this.#computesOn(report);
     const stop = () => connection.terminate(closed());
     // What loads hears nothing, and there is nothing yet that could be kept.
     signal?.addEventListener("abort", stop, { once: true });
+    const { resolve } = this.#platform;
     try {
-      this.#device = await connection.run(
+      const report = await connection.run(
         "create",
-        { device, wasmUrl: wasmUrl && this.#platform.resolve(wasmUrl) },
+        {
+          device: this.#gpuNotice === undefined ? device : "cpu",
+          wasmUrl: wasmUrl && resolve(wasmUrl),
+          weights: weights && { light: resolve(weights.light), normal: resolve(weights.normal) },
+        },
         {
           onEvent(event) {
             if (event.event !== "load") return;
@@ -238,6 +242,7 @@ export class Normalight {
           },
         },
       );
+      this.#computesOn(this.#gpuNotice === undefined ? report : { ...report, notice: this.#gpuNotice });
       signal?.throwIfAborted();
       return connection;
     } catch (error) {
@@ -249,11 +254,17 @@ export class Normalight {
       signal?.removeEventListener("abort", stop);
     }
   }
+
+  #computesOn(device: DeviceReport): void {
+    const before = this.#device;
+    this.#device = device;
+    if (before !== undefined && before.kind !== device.kind) this.#options.onDevice?.(device);
+  }
 }
 
 /** A worker that is none: in a file of its own, because who has workers does not need it. */
-async function startHere(fetchModule: FetchModule): Promise<WorkerLike> {
-  return (await import("./here.js")).startHere(fetchModule);
+async function startHere(fetchAsset: FetchAsset): Promise<WorkerLike> {
+  return (await import("./here.js")).startHere(fetchAsset);
 }
 
 function closed(): NormalightError {

@@ -1,5 +1,5 @@
 import type { WorkerLike } from "./connection.js";
-import type { FetchModule } from "./load.js";
+import type { FetchAsset } from "./fetch.js";
 import type { CreateOptions } from "./types.js";
 
 /** What browsers and Node.js do each in their own way. */
@@ -12,6 +12,6 @@ export interface Platform {
   readonly sendsFiles: boolean;
   /** An absolute address. */
   resolve(url: string | URL): string;
-  /** Fetches the module for who computes without a worker. */
-  readonly fetchModule: FetchModule;
+  /** Fetches modules and weights for who computes without a worker. */
+  readonly fetchAsset: FetchAsset;
 }

@@ -1,3 +1,4 @@
+import type { Addresses } from "./assets.js";
 import type { DerivedSettings, FailureKind, Settings } from "./generated.js";
 import type {
   ColorMode,
@@ -25,7 +26,7 @@ export interface Unpacked extends UnpackedArchives {
 
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
-  create: { request: { device: DeviceChoice; wasmUrl: string | undefined }; response: DeviceReport };
+  create: { request: { device: DeviceChoice } & Addresses; response: DeviceReport };
   plan: { request: { files: readonly StackFile[] }; response: Plan };
   unpack: { request: { files: readonly StackFile[] }; response: Unpacked | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };
@@ -57,12 +58,15 @@ export type ToWorker =
   | { [T in TaskName]: { task: T; request: Tasks[T]["request"] } }[TaskName]
   | { task: "cancel" };
 
-/** From the worker: the lock that it holds as long as it lives, events while a task runs, its end, or that the module is beyond repair. */
+/**
+ * From the worker: the lock that it holds as long as it lives, another device than was said, events while a task runs, its end, or that a module is beyond repair (`gpu`: perhaps
+ * because of the GPU). */
 export type FromWorker =
   | ({ event: "load" } & LoadProgress)
   | { event: "alive"; lock: string }
+  | { event: "device"; device: DeviceReport }
   | { event: "progress"; stage: Stage; fraction: number }
   | { event: "plan"; plan: InputPlan; words: string[] }
   | { event: "done"; response: Tasks[TaskName]["response"] }
   | { event: "failed"; kind: FailureKind | "load"; message: string }
-  | { event: "crashed"; message: string };
+  | { event: "crashed"; message: string; gpu: boolean };

@@ -131,11 +131,17 @@ export interface DeviceReport {
   readonly notice?: string;
 }
 
+/** The addresses of both networks' weights (safetensors). */
+export interface WeightsSource<Address = string | URL> {
+  readonly light: Address;
+  readonly normal: Address;
+}
+
 /** How to load the estimator. */
 export interface CreateOptions {
   /** `auto` when left out. */
   readonly device?: DeviceChoice;
-  /** Hears how much of the module (networks included) has arrived. */
+  /** Hears how much of module and weights has arrived. The module for the GPU comes later, in the background. */
   readonly onProgress?: (progress: LoadProgress) => void;
   /**
    * The same as a fraction alone, in 0..1.
@@ -143,8 +149,15 @@ export interface CreateOptions {
    * @deprecated `onProgress` tells more
    */
   readonly onLoad?: (fraction: number) => void;
-  /** Where `normalight_bg.wasm` lies, if not where this package or the bundler has put it. */
+  /**
+   * Where `normalight_bg.wasm` lies, if not where this package or the bundler has put it. The other files of
+   * `normalight/wasm` are then looked for beside it.
+   */
   readonly wasmUrl?: string | URL;
+  /** Where weights of one's own lie: files of the trainer, instead of those that ship. */
+  readonly weights?: WeightsSource;
+  /** Hears when another device computes than `device` said: a GPU that does not start, or fails. */
+  readonly onDevice?: (device: DeviceReport) => void;
   /**
    * Where `browser-worker.js` lies with all its parts, if not where this package or the bundler has put it; from another
    * server, too. Not in Node.js.
@@ -160,7 +173,7 @@ export interface CreateOptions {
   readonly signal?: AbortSignal;
 }
 
-/** How much of the module has arrived. */
+/** How much of module and weights has arrived. */
 export interface LoadProgress {
   /** In bytes, unpacked. */
   readonly bytes: number;

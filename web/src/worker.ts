@@ -1,10 +1,11 @@
-import type { Engine, InputFile } from "../wasm/normalight.js";
+import type { InputFile } from "../wasm/normalight.js";
 import { bytesOf, HEAD, read, readForPlan } from "./decode.js";
-import { chooseDevice, cpu } from "./device.js";
+import { Engines } from "./engines.js";
+import type { FetchAsset } from "./fetch.js";
 import type { FailureKind, Thrown } from "./generated.js";
-import { type FetchModule, load, type Module } from "./load.js";
+import type { Module } from "./load.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
-import type { DeviceChoice, DeviceReport, StackFile } from "./types.js";
+import type { DeviceReport, StackFile } from "./types.js";
 import { yieldToEvents } from "./yielding.js";
 
 /** Where messages come from and go to: a worker's global scope, a thread's port, or the page itself. */
@@ -24,21 +25,19 @@ export interface Served {
 /** An estimator and its state. */
 interface State {
   readonly scope: Scope;
-  readonly fetchModule: FetchModule;
-  module: Promise<Module> | undefined;
-  engine: Engine | undefined;
+  readonly fetchAsset: FetchAsset;
+  engines: Engines | undefined;
   cancelled: boolean;
   busy: boolean;
   stopped: boolean;
 }
 
 /** Answers the messages of a scope. */
-export function serve(scope: Scope, fetchModule: FetchModule): Served {
+export function serve(scope: Scope, fetchAsset: FetchAsset): Served {
   const state: State = {
     scope,
-    fetchModule,
-    module: undefined,
-    engine: undefined,
+    fetchAsset,
+    engines: undefined,
     cancelled: false,
     busy: false,
     stopped: false,
@@ -48,7 +47,7 @@ export function serve(scope: Scope, fetchModule: FetchModule): Served {
     else void respond(state, message);
   });
   return {
-    crashed: (message) => crashed(state, message),
+    crashed: (message) => crashed(state, message, state.engines?.useGpu ?? false),
     stop() {
       state.cancelled = true;
       state.stopped = true;
@@ -59,8 +58,8 @@ export function serve(scope: Scope, fetchModule: FetchModule): Served {
 }
 
 function release(state: State): void {
-  state.engine?.free();
-  state.engine = undefined;
+  state.engines?.free();
+  state.engines = undefined;
 }
 
 async function respond(state: State, message: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
@@ -70,7 +69,7 @@ async function respond(state: State, message: Exclude<ToWorker, { task: "cancel"
     const response = await perform(state, message);
     state.scope.postMessage({ event: "done", response }, buffers(response));
   } catch (error) {
-    if (error instanceof WebAssembly.RuntimeError) crashed(state, error.message);
+    if (error instanceof WebAssembly.RuntimeError) crashed(state, error.message, usesGpu(state, message));
     else tell(state, { event: "failed", ...failure(error) });
   } finally {
     state.busy = false;
@@ -78,20 +77,19 @@ async function respond(state: State, message: Exclude<ToWorker, { task: "cancel"
   }
 }
 
+function usesGpu(state: State, { task }: ToWorker): boolean {
+  return task === "estimate" && (state.engines?.useGpu ?? false);
+}
+
 async function perform(
   state: State,
   message: Exclude<ToWorker, { task: "cancel" }>,
 ): Promise<Tasks[TaskName]["response"]> {
-  state.module ??= load(
-    state.fetchModule,
-    message.task === "create" ? message.request.wasmUrl : undefined,
-    (loaded) => tell(state, { event: "load", ...loaded }),
-    (words) => crashed(state, words),
-  );
-  const wasm = await state.module;
+  if (message.task === "create") return await create(state, message.request);
+  const { engines } = state;
+  if (engines === undefined) throw new Error("nothing was loaded");
+  const wasm = engines.module;
   switch (message.task) {
-    case "create":
-      return await create(state, wasm, message.request.device);
     case "plan":
       return wasm.plan(await Promise.all(message.request.files.map(readForPlan)));
     case "unpack":
@@ -111,35 +109,29 @@ async function perform(
     case "pictures":
       return wasm.normalPictures(message.request.normals, message.request.format);
     case "estimate":
-      return await estimate(state, message.request);
+      return await estimate(state, engines, message.request);
   }
 }
 
-async function create(state: State, wasm: Module, choice: DeviceChoice): Promise<DeviceReport> {
-  // Node.js has no navigator before version 21.
-  let device = await chooseDevice(choice, globalThis.navigator?.gpu);
-  if (device.kind === "gpu") {
-    try {
-      state.engine = await wasm.Engine.on_gpu(device.name);
-      return device;
-    } catch (error) {
-      device = cpu(`WebGPU does not start (${failure(error).message}), so the processor computes.`);
-    }
-  }
-  state.engine = wasm.Engine.on_cpu(device.name);
+async function create(state: State, request: Tasks["create"]["request"]): Promise<DeviceReport> {
+  const { engines, device } = await Engines.create(request, state.fetchAsset, {
+    load: (progress) => tell(state, { event: "load", ...progress }),
+    device: (device) => tell(state, { event: "device", device }),
+    crashed: (words, gpu) => crashed(state, words, gpu),
+  });
+  state.engines = engines;
   return device;
 }
 
 async function estimate(
   state: State,
+  engines: Engines,
   request: Tasks["estimate"]["request"],
 ): Promise<Tasks["estimate"]["response"]> {
-  const { engine } = state;
-  if (engine === undefined) throw new Error("no device was chosen");
   const files = await readAll(state, request.files);
   const mask = request.mask && (await read(request.mask));
   const lights = request.lights && (await read(request.lights));
-  return await engine.estimate(files, mask, lights, request.settings, {
+  return await engines.estimate(files, mask, lights, request.settings, {
     async report(stage, fraction: number): Promise<boolean> {
       tell(state, { event: "progress", stage, fraction });
       await yieldToEvents();
@@ -197,8 +189,8 @@ function failure(error: unknown): Omit<Thrown, "kind"> & { kind: FailureKind | "
   };
 }
 
-function crashed(state: State, message: string): void {
-  tell(state, { event: "crashed", message });
+function crashed(state: State, message: string, gpu: boolean): void {
+  tell(state, { event: "crashed", message, gpu });
 }
 
 function tell(state: State, message: FromWorker): void {

@@ -32,7 +32,7 @@ afterEach(() => {
 });
 
 const done = (answer) => ({ event: "done", response: answer });
-const crashed = { event: "crashed", message: "unreachable" };
+const crashed = { event: "crashed", message: "unreachable", gpu: false };
 const file = { name: "a.png", bytes: new Uint8Array() };
 const deviceOf = ({ device }) => done({ kind: device === "cpu" ? "cpu" : "gpu", name: device });
 
@@ -59,14 +59,40 @@ test("after a crash the next call gets a new worker", async () => {
   assert.equal(normalight.device.kind, "gpu");
 });
 
-test("a GPU that breaks at the start gives way to the processor", async () => {
-  answers = { create: (request) => (request.device === "cpu" ? deviceOf(request) : crashed) };
+const isProcessor = ({ kind, notice }) => {
+  assert.equal(kind, "cpu");
+  assert.match(notice, /^The GPU failed \(unreachable\), so the processor computes\.$/);
+};
+
+test("a GPU that breaks in the background gives way to the processor at the next call", async () => {
+  answers = { create: deviceOf, thumbnail: () => done("small") };
+  const heard = [];
+  const normalight = await Normalight.create({ device: "gpu", onDevice: (device) => heard.push(device) });
+  started[0].onmessage({ data: { ...crashed, gpu: true } });
+  assert.equal(await normalight.thumbnail(file), "small");
+  assert.equal(started.length, 2);
+  isProcessor(normalight.device);
+  assert.deepEqual(heard, [normalight.device]);
+});
+
+test("an estimate that breaks the GPU is done by the processor", async () => {
+  let estimates = 0;
+  answers = {
+    create: deviceOf,
+    estimate: () => (estimates++ === 0 ? { ...crashed, gpu: true } : done("estimate")),
+  };
   const normalight = await Normalight.create({ device: "gpu" });
-  assert.equal(normalight.device.kind, "cpu");
-  assert.match(
-    normalight.device.notice,
-    /^WebGPU does not start .*unreachable.* so the processor computes\.$/,
-  );
+  assert.equal(await normalight.estimate([]), "estimate");
+  isProcessor(normalight.device);
+});
+
+test("a worker may say that another device computes", async () => {
+  answers = { create: deviceOf };
+  const heard = [];
+  const normalight = await Normalight.create({ device: "gpu", onDevice: (device) => heard.push(device) });
+  const device = { kind: "cpu", name: "CPU", notice: "WebGPU does not start." };
+  started[0].onmessage({ data: { event: "device", device } });
+  assert.deepEqual([normalight.device, ...heard], [device, device]);
 });
 
 test("a closed estimator refuses, and ends what is under way", async () => {

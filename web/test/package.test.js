@@ -42,6 +42,10 @@ test("the package holds what it needs and nothing else", () => {
     "wasm/normalight.js",
     "wasm/normalight.d.ts",
     "wasm/normalight_bg.wasm",
+    "wasm/normalight_gpu.js",
+    "wasm/normalight_gpu_bg.wasm",
+    "wasm/light.safetensors",
+    "wasm/normal.safetensors",
     "dist/bin.js",
     "dist/browser-worker.js",
     "dist/node-worker.js",
@@ -72,7 +76,7 @@ test("types are found by every way of resolving that can load modules", async ()
   const tarball = new Uint8Array(readFileSync(join(folder, packed.filename)));
   const result = await checkPackage(createPackageFromTarballData(tarball), {
     // They are no modules with types.
-    excludeEntrypoints: ["./normalight_bg.wasm", "./package.json", "./browser-worker.js"],
+    excludeEntrypoints: [/\.(wasm|safetensors|json)$/, "./browser-worker.js"],
   });
   assert.ok(result.types, "the package has types");
   // As a package of modules alone, it has nothing for who calls `require`, or knows no `exports`.

@@ -58,6 +58,7 @@ export class Engine {
       onLoad: (fraction) => {
         if (this.#current === started) this.#show("loading", `Loading ${Math.round(100 * fraction)} %`);
       },
+      onDevice: () => void started.then((normalight) => this.#tell(normalight)),
     });
     started.then(
       (normalight) => {

@@ -36,9 +36,9 @@ pub enum Step {
     Workflows,
     /// Lints of what runs in the browser.
     WasmClippy,
-    /// The WebAssembly module.
+    /// The WebAssembly modules.
     Wasm,
-    /// The module's JavaScript.
+    /// The modules' JavaScript.
     Bindgen,
     /// The package's generated types are the module's.
     Types,
@@ -119,7 +119,11 @@ fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
     for step in steps {
         match step {
             Step::Fmt | Step::Clippy | Step::Xtask => tools.components()?,
-            Step::WasmClippy | Step::Wasm => drop(tools.toolchain()?),
+            Step::Wasm => drop(tools.toolchain()?),
+            Step::WasmClippy => {
+                tools.components()?;
+                tools.toolchain()?;
+            }
             Step::NpmCi | Step::Check | Step::Page => drop(tools.node()?),
             Step::PageTests | Step::Consumers => {
                 tools.node()?;

@@ -18,6 +18,32 @@ const TARGET: &str = "wasm32-unknown-unknown";
 const CRATE: &str = "normalight-wasm";
 const PROFILE: &str = "browser";
 
+/// The crate and ours below it.
+const LINTED: [&str; 5] = [
+    CRATE,
+    "normalight-core",
+    "normalight-io",
+    "normalight-kernels",
+    "normalight-model",
+];
+
+/// A module: an example of the crate, with the feature that it is built with.
+struct Module {
+    name: &'static str,
+    feature: &'static str,
+}
+
+const MODULES: [Module; 2] = [
+    Module {
+        name: "normalight",
+        feature: "cpu",
+    },
+    Module {
+        name: "normalight_gpu",
+        feature: "gpu",
+    },
+];
+
 /// Debian's Rust for WebAssembly, with the sources of the standard library and a linker.
 const PACKAGES: [&str; 6] = [
     "rustc-web",
@@ -60,10 +86,10 @@ impl Toolchain {
         Ok(Self::Debian)
     }
 
-    fn cargo(&self, workspace: &Workspace, subcommand: &str) -> Command {
+    fn build_command(&self, workspace: &Workspace) -> Command {
         let mut command = match self {
-            Self::Own => workspace.cargo(&[subcommand]),
-            Self::Debian => debian_cargo(workspace, subcommand),
+            Self::Own => workspace.cargo(&["build"]),
+            Self::Debian => debian_cargo(workspace),
         };
         command.env("CARGO_TARGET_DIR", workspace.wasm_target());
         // Flags meant for this computer would replace the ones for WebAssembly in .cargo/config.toml.
@@ -75,6 +101,7 @@ impl Toolchain {
             command.env_remove(name);
         }
         command.args(["--profile", PROFILE, "--target", TARGET, "--package", CRATE]);
+        command.arg("--no-default-features");
         if matches!(self, Self::Debian) {
             command.arg("-Zbuild-std=std,panic_abort");
         }
@@ -83,22 +110,58 @@ impl Toolchain {
 
     /// Lints the bindings for the browser and every crate of ours below it, with the calls banned that the
     /// browser does not have.
+    ///
+    /// Clippy's compiler stands in for rustc in a build, as `cargo clippy` has it do in a check: that would go through all
+    /// dependencies once more, for minutes, and the build needs them anyway. Our own crates are built again after it.
     pub fn clippy(&self, workspace: &Workspace) -> Result<()> {
-        let mut command = self.cargo(workspace, "clippy");
-        command.env("CLIPPY_CONF_DIR", workspace.root.join("xtask/clippy-wasm"));
-        run::run(command.args(["--", "-D", "warnings"]))
+        let driver = match self {
+            Self::Own => PathBuf::from(sysroot()?).join("bin/clippy-driver"),
+            Self::Debian => PathBuf::from("/usr/bin/clippy-driver"),
+        };
+        if !driver.is_file() {
+            bail!("{} is missing: it is a part of Clippy", driver.display());
+        }
+        for module in MODULES {
+            let mut command = self.build_command(workspace);
+            for name in LINTED {
+                // What is thrown away need not be fast.
+                let quick = format!("profile.{PROFILE}.package.{name}.opt-level=0");
+                command.args(["--config", &quick]);
+            }
+            command
+                .args(["--lib", "--features", module.feature])
+                .env("RUSTC_WORKSPACE_WRAPPER", &driver)
+                .env("CLIPPY_CONF_DIR", workspace.root.join("xtask/clippy-wasm"))
+                // As `cargo clippy -- -D warnings` hands it on.
+                .env(
+                    "CLIPPY_ARGS",
+                    ["-D", "warnings", ""].join("__CLIPPY_HACKERY__"),
+                );
+            run::run(&mut command)?;
+        }
+        Ok(())
     }
 
-    /// Compiles the module.
+    /// Compiles the modules.
     pub fn build(&self, workspace: &Workspace) -> Result<()> {
-        run::run(&mut self.cargo(workspace, "build"))
+        for Module { name, feature } in MODULES {
+            let mut command = self.build_command(workspace);
+            run::run(command.args(["--example", name, "--features", feature]))?;
+        }
+        Ok(())
     }
 }
 
-fn own_has_target() -> bool {
+/// The folder of the toolchain that built this program.
+fn sysroot() -> Result<String> {
     let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    run::read(Command::new(rustc).args(["--print", "sysroot"])).is_ok_and(|sysroot| {
-        Path::new(sysroot.trim())
+    let said = run::read(Command::new(rustc).args(["--print", "sysroot"]))?;
+    Ok(said.trim().to_owned())
+}
+
+fn own_has_target() -> bool {
+    sysroot().is_ok_and(|sysroot| {
+        Path::new(&sysroot)
             .join("lib/rustlib")
             .join(TARGET)
             .join("lib")
@@ -127,15 +190,9 @@ fn rustup_adds_target(packages: &Packages) -> Result<bool> {
 
 /// Debian's cargo with nothing of the toolchain that runs this program: rustup's variables would
 /// lead it back to rustup's compiler.
-fn debian_cargo(workspace: &Workspace, subcommand: &str) -> Command {
-    // `cargo clippy` would look for cargo-clippy in Cargo's home first, where rustup's lies.
-    let program = if subcommand == "clippy" {
-        "/usr/bin/cargo-clippy"
-    } else {
-        "/usr/bin/cargo"
-    };
-    let mut command = Command::new(program);
-    command.arg(subcommand).current_dir(&workspace.root);
+fn debian_cargo(workspace: &Workspace) -> Command {
+    let mut command = Command::new("/usr/bin/cargo");
+    command.arg("build").current_dir(&workspace.root);
     forget_this_package(&mut command);
     const PREFIXES: [&str; 4] = ["RUSTC", "RUSTDOC", "RUSTUP_", "CARGO_BUILD_RUSTC"];
     for (name, _) in env::vars_os() {
@@ -177,52 +234,61 @@ fn version(text: &str) -> Result<(u32, u32)> {
     }
 }
 
-/// Writes the module and its JavaScript for the page into web/wasm, unless it is newer than the module.
+/// The weights that ship, as the package fetches them.
+const WEIGHTS: [&str; 2] = ["light.safetensors", "normal.safetensors"];
+
+/// Writes the modules, their JavaScript and the weights for the page into web/wasm, unless they are newer than what they are
+/// made of.
 pub fn bindgen(workspace: &Workspace) -> Result<()> {
-    let module: PathBuf = workspace
+    let built = workspace
         .wasm_target()
         .join(TARGET)
         .join(PROFILE)
-        .join("normalight_wasm.wasm");
-    if !module.is_file() {
+        .join("examples");
+    let modules = MODULES.map(|Module { name, .. }| built.join(name).with_extension("wasm"));
+    if let Some(missing) = modules.iter().find(|module| !module.is_file()) {
         bail!(
             "{} is missing: `cargo xtask wasm` builds it",
-            module.display()
+            missing.display()
         );
     }
+    let shipped = workspace.root.join("models/default");
     let output = workspace.root.join("web/wasm");
-    if !stale(&output.join("normalight.js"), &[&module])? {
+    let [cpu, gpu] = &modules;
+    // What is written first is the oldest.
+    if !stale(&output.join("normalight.js"), &[cpu, gpu, &shipped])? {
         workspace.say("bindgen: web/wasm is up to date");
         return Ok(());
     }
     // Made aside and renamed: who reads web/wasm never meets half of it.
     let aside = workspace.root.join("web/wasm.new");
     remove(&aside)?;
-    let mut bindgen = Bindgen::new();
-    bindgen
-        .input_path(&module)
-        .out_name("normalight")
-        .typescript(true);
-    // The package names the module's address itself, once: bundlers copy the module for each.
-    bindgen.omit_default_module_path(true);
-    // Function names are a good part of the module; panics still say their file and line.
-    bindgen
-        .remove_name_section(true)
-        .remove_producers_section(true);
-    bindgen
-        .web(true)
-        .and_then(|web| web.generate(&aside))
-        .with_context(|| format!("wasm-bindgen cannot read {}", module.display()))?;
+    for (module, Module { name, .. }) in modules.iter().zip(MODULES) {
+        let mut bindgen = Bindgen::new();
+        bindgen.input_path(module).out_name(name).typescript(true);
+        // The package names the module's address itself, once: bundlers copy the module for each.
+        bindgen.omit_default_module_path(true);
+        // Function names are a good part of the module; panics still say their file and line.
+        bindgen
+            .remove_name_section(true)
+            .remove_producers_section(true);
+        bindgen
+            .web(true)
+            .and_then(|web| web.generate(&aside))
+            .with_context(|| format!("wasm-bindgen cannot read {}", module.display()))?;
+        let written = aside.join(format!("{name}_bg.wasm"));
+        workspace.say(&format!(
+            "bindgen: {name} has {:.2} MB ({:.2} MB as compiled)",
+            megabytes(&written)?,
+            megabytes(module)?
+        ));
+    }
+    for name in WEIGHTS {
+        let (from, to) = (shipped.join(name), aside.join(name));
+        fs::copy(&from, &to).with_context(|| format!("cannot copy {}", from.display()))?;
+    }
     remove(&output)?;
-    fs::rename(&aside, &output).with_context(|| format!("cannot write {}", output.display()))?;
-    let (before, after) = (
-        megabytes(&module)?,
-        megabytes(&output.join("normalight_bg.wasm"))?,
-    );
-    workspace.say(&format!(
-        "bindgen: the module has {after:.2} MB ({before:.2} MB as compiled)"
-    ));
-    Ok(())
+    fs::rename(&aside, &output).with_context(|| format!("cannot write {}", output.display()))
 }
 
 fn remove(folder: &Path) -> Result<()> {

@@ -30,3 +30,24 @@ pub fn default_weights() -> Result<[Weights; 2], ModelError> {
         )?,
     ])
 }
+
+/// SHA-256 of the weights that ship, in hexadecimal: the light network's and the normal network's. Who fetches the files
+/// instead of taking them from the crate knows by them that they arrived whole.
+pub const DEFAULT_HASHES: [&str; 2] = [
+    "8e60ddbc4550b653251ee17dc71629040997e36c7260fe6a9d5ffb765f56124f",
+    "f3412fad2c6634f548561d9888acdbb0d9cfd9fa92dd8fe976fe86857e9c195e",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hashes_are_those_of_the_files() {
+        let [light, normal] = default_weights().unwrap();
+        light.expect_hash(DEFAULT_HASHES[0]).unwrap();
+        normal.expect_hash(DEFAULT_HASHES[1]).unwrap();
+        let other = light.expect_hash(DEFAULT_HASHES[1]).unwrap_err();
+        assert!(other.to_string().contains(light.hash()));
+    }
+}

@@ -6,11 +6,11 @@ use crate::result::{Estimated, Run};
 use crate::settings::Settings;
 use burn::tensor::Device;
 use normalight_io::{NamedBytes, RunDescription, read_stack};
-use normalight_model::{EstimateInput, Estimator, default_weights};
+use normalight_model::{DEFAULT_HASHES, EstimateInput, Estimator, Weights};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
-/// The shipped networks on a device.
+/// The networks on a device.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Engine {
@@ -21,28 +21,54 @@ pub struct Engine {
 
 #[wasm_bindgen]
 impl Engine {
-    /// On the processor; `device` is its name in reports.
+    /// On the processor; `device` is its name in reports, `shipped` whether these must be the weights that ship.
     ///
     /// # Errors
-    /// Weights that do not fit: a broken build.
-    pub fn on_cpu(device: String) -> Result<Engine, Failure> {
-        Self::on(Device::flex(), ["cpu".to_owned(), device])
+    /// Weights that are damaged or others.
+    #[cfg(feature = "cpu")]
+    pub fn on_cpu(
+        device: String,
+        light: InputFile,
+        normal: InputFile,
+        shipped: bool,
+    ) -> Result<Engine, Failure> {
+        let names = ["cpu".to_owned(), device];
+        Self::on(Device::flex(), names, [light, normal], shipped)
     }
 
-    /// On the browser's GPU, which can be started once; `device` is its name in reports.
+    /// On the browser's GPU, which can be started once; otherwise as on the processor.
     ///
     /// # Errors
-    /// WebGPU does not start.
-    pub async fn on_gpu(device: String) -> Result<Engine, Failure> {
+    /// WebGPU does not start, weights that are damaged or others.
+    #[cfg(feature = "gpu")]
+    pub async fn on_gpu(
+        device: String,
+        light: InputFile,
+        normal: InputFile,
+        shipped: bool,
+    ) -> Result<Engine, Failure> {
         let gpu = Device::wgpu_options()
             .init_async()
             .await
             .map_err(|error| Failure::Device(error.to_string()))?;
-        Self::on(gpu, ["gpu".to_owned(), device])
+        let names = ["gpu".to_owned(), device];
+        Self::on(gpu, names, [light, normal], shipped)
     }
 
-    fn on(device: Device, names: [String; 2]) -> Result<Engine, Failure> {
-        let [light, normal] = default_weights()?;
+    fn on(
+        device: Device,
+        names: [String; 2],
+        weights: [InputFile; 2],
+        shipped: bool,
+    ) -> Result<Engine, Failure> {
+        let [light, normal] = weights.map(NamedBytes::from);
+        let light = Weights::from_bytes(&light.name, &light.bytes)?;
+        let normal = Weights::from_bytes(&normal.name, &normal.bytes)?;
+        if shipped {
+            for (weights, expected) in [&light, &normal].into_iter().zip(DEFAULT_HASHES) {
+                weights.expect_hash(expected)?;
+            }
+        }
         Ok(Self {
             estimator: Estimator::new(&light, &normal, device)?,
             device: names,

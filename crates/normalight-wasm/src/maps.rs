@@ -1,6 +1,7 @@
 //! Maps of numbers, on their way to JavaScript and back.
 use crate::error::Failure;
 use js_sys::Float32Array;
+#[cfg(feature = "cpu")]
 use normalight_core::{Mask, NormalMap, Vec3};
 use serde::{Deserialize, Serialize};
 use tsify::Tsify;
@@ -29,7 +30,10 @@ impl FloatMap {
             shape: [height, width, C],
         }
     }
+}
 
+#[cfg(feature = "cpu")]
+impl FloatMap {
     /// Three numbers a pixel, with width and height.
     fn triples(&self, name: &str) -> Result<(usize, usize, Vec<[f32; 3]>), Failure> {
         let [height, width, channels] = self.shape;

@@ -3,7 +3,7 @@
 // `npm run test:consumers --workspace web`. Next.js takes 370 MB and several minutes, and was tried by hand.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
-import { copyFile, writeFile } from "node:fs/promises";
+import { cp, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
@@ -99,8 +99,8 @@ test("webpack 5", async () => {
   assert.equal(await served(path), GOOD);
 });
 
-test("esbuild, which leaves worker and module to whoever copies them", async () => {
-  const main = MAIN().replace('"cpu"', '"cpu", workerUrl: "worker.js", wasmUrl: "normalight.wasm"');
+test("esbuild, which leaves worker, module and weights to whoever copies them", async () => {
+  const main = MAIN().replace('"cpu"', '"cpu", workerUrl: "worker.js", wasmUrl: "wasm/normalight_bg.wasm"');
   const folder = await projects.project("esbuild", { "main.js": main });
   const { build } = await projects.tool("esbuild");
   await build({
@@ -113,8 +113,7 @@ test("esbuild, which leaves worker and module to whoever copies them", async () 
     logLevel: "silent",
   });
   const out = join(folder, "out");
-  const module = join(folder, "node_modules/normalight/wasm/normalight_bg.wasm");
-  await copyFile(module, join(out, "normalight.wasm"));
+  await cp(join(folder, "node_modules/normalight/wasm"), join(out, "wasm"), { recursive: true });
   await writeFile(join(out, "index.html"), html("./main.js"));
   assert.equal(await served(out), GOOD);
 });

@@ -4,13 +4,13 @@ import { chromium } from "playwright-core";
 /** Milliseconds for a page to say how it went. */
 const PATIENCE = 150_000;
 
-/** Starts the browser of the tests. */
-export async function browser() {
+/** Starts the browser of the tests. @param {...string} switches further ones */
+export async function browser(...switches) {
   const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
   assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
   return await chromium.launch({
     executablePath,
-    args: ["--no-sandbox", "--disable-quic", "--no-first-run"],
+    args: ["--no-sandbox", "--disable-quic", "--no-first-run", ...switches],
   });
 }
 

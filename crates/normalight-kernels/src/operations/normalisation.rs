@@ -48,6 +48,13 @@ impl BatchMoments {
 /// - input, output: `[batch, height, width, channels]`
 /// - moments: [`BatchMoments::new`] of the same input
 /// - gamma, beta: `[channels]`
+#[cfg_attr(
+    not(feature = "flex"),
+    expect(
+        unused_variables,
+        reason = "Burn's operations need the moments' gradients"
+    )
+)]
 pub fn batch_norm(
     input: Tensor<4>,
     moments: &BatchMoments,

@@ -1,4 +1,4 @@
-use burn::tensor::{Tensor, TensorData};
+use burn::tensor::Tensor;
 
 /// Coefficients of the quintic that each step applies to the singular values (Jordan et al. 2024, "Muon: an optimizer for
 /// hidden layers in neural networks"): chosen to raise small ones fast, so that all end near 1 rather than at it.
@@ -19,6 +19,7 @@ pub fn orthogonalised(input: Tensor<2>, steps: usize) -> Tensor<2> {
     }
     #[cfg(feature = "flex")]
     if super::on_flex(&input) {
+        use burn::tensor::TensorData;
         let device = input.device();
         let values = input.detach().into_data().try_to_vec::<f32>();
         let mut values = values.expect("a tensor of f32 holds f32");

@@ -1,0 +1,2 @@
+//! The module that computes on the browser's GPU.
+pub use normalight_wasm::*;

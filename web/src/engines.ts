@@ -1,0 +1,132 @@
+import type { Engine, InputFile } from "../wasm/normalight.js";
+import type { Engine as GpuEngine } from "../wasm/normalight_gpu.js";
+import { type Assets, assets } from "./assets.js";
+import { chooseDevice, cpu } from "./device.js";
+import { Arrivals, type FetchAsset, fetched } from "./fetch.js";
+import { loadGpuModule, loadModule, type Module } from "./load.js";
+import type { Tasks } from "./protocol.js";
+import type { DeviceReport, LoadProgress } from "./types.js";
+
+/** Who hears what happens beside the tasks. */
+export interface Listener {
+  load(progress: LoadProgress): void;
+  /** What computes is another device than was said. */
+  device(report: DeviceReport): void;
+  /** A module is beyond repair; `gpu`: the one for the GPU. */
+  crashed(words: string, gpu: boolean): void;
+}
+
+/**
+ * The module for the processor, which is there at once and steps in, and the one for the GPU, which arrives in the background
+ * where there is a GPU.
+ */
+export class Engines {
+  /** What needs no device. */
+  readonly module: Module;
+  readonly #cpu: Engine;
+  readonly #listener: Listener;
+  #gpu: Promise<GpuEngine> | undefined;
+  #stopped = false;
+
+  private constructor(module: Module, cpu: Engine, listener: Listener) {
+    this.module = module;
+    this.#cpu = cpu;
+    this.#listener = listener;
+  }
+
+  /** Fetches what `request` asks for, and says what will compute. */
+  static async create(
+    { device: choice, ...addresses }: Tasks["create"]["request"],
+    fetchAsset: FetchAsset,
+    listener: Listener,
+  ): Promise<{ engines: Engines; device: DeviceReport }> {
+    const from = assets(addresses);
+    const { light, normal, shipped } = from.weights;
+    const arrivals = new Arrivals([from.module, light, normal], listener.load);
+    const crashed = (words: string) => listener.crashed(words, false);
+    const weights = (url: string) =>
+      fetched(fetchAsset, url, arrivals, async (response) => ({
+        name: url,
+        bytes: new Uint8Array(await response.arrayBuffer()),
+      }));
+    const files = Promise.all([weights(light), weights(normal)]);
+    // Where all is missing, the module is named.
+    files.catch(() => undefined);
+    const [module, device] = await Promise.all([
+      loadModule(fetchAsset, from.module, arrivals, crashed),
+      // Node.js has no navigator before version 21.
+      chooseDevice(choice, globalThis.navigator?.gpu),
+    ]);
+    const [lightFile, normalFile] = await files;
+    const engines = new Engines(module, onCpu(module, lightFile, normalFile, shipped), listener);
+    if (device.kind === "gpu") engines.#start(device, from, [lightFile, normalFile], fetchAsset);
+    return { engines, device };
+  }
+
+  /** Fetches and starts the GPU in the background; if that fails, the processor computes. */
+  #start(device: DeviceReport, from: Assets, weights: [InputFile, InputFile], fetchAsset: FetchAsset): void {
+    const {
+      gpuModule,
+      weights: { shipped },
+    } = from;
+    const crashed = (words: string) => this.#listener.crashed(words, true);
+    const starting = loadGpuModule(fetchAsset, gpuModule, undefined, crashed).then((module) =>
+      module.Engine.on_gpu(device.name, ...weights, shipped),
+    );
+    this.#gpu = starting;
+    starting.then(
+      (engine) => this.#stopped && engine.free(),
+      (error: unknown) =>
+        this.#giveUpGpu(`WebGPU does not start (${messageOf(error)}), so the processor computes.`),
+    );
+  }
+
+  /** Whether estimates are the GPU's. */
+  get useGpu(): boolean {
+    return this.#gpu !== undefined;
+  }
+
+  #giveUpGpu(notice: string): void {
+    this.#gpu = undefined;
+    this.#listener.device(cpu(notice));
+  }
+
+  /** Estimates on the GPU, if there is one, and on the processor if the GPU fails. */
+  async estimate(...request: Parameters<Engine["estimate"]>): Promise<Tasks["estimate"]["response"]> {
+    const gpu = await this.#gpu?.catch(() => undefined);
+    if (gpu === undefined) return await this.#cpu.estimate(...request);
+    try {
+      return await gpu.estimate(...request);
+    } catch (error) {
+      if (Object(error).kind !== "device") throw error;
+      this.#giveUpGpu(`The GPU failed (${messageOf(error)}), so the processor computes.`);
+      return await this.#cpu.estimate(...request);
+    }
+  }
+
+  /** Gives the memory of the networks back. */
+  free(): void {
+    this.#stopped = true;
+    this.#cpu.free();
+    this.#gpu?.then(
+      (engine) => engine.free(),
+      () => undefined,
+    );
+    this.#gpu = undefined;
+  }
+}
+
+/** The engine that is always there: by making it the weights are checked. */
+function onCpu(module: Module, light: InputFile, normal: InputFile, shipped: boolean): Engine {
+  try {
+    return module.Engine.on_cpu(cpu().name, light, normal, shipped);
+  } catch (error) {
+    if (Object(error).kind !== "device") throw error;
+    throw { kind: "load", message: messageOf(error) };
+  }
+}
+
+function messageOf(error: unknown): string {
+  const { message } = Object(error) as { message?: unknown };
+  return typeof message === "string" ? message : String(error);
+}
