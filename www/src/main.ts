@@ -1,3 +1,4 @@
+import { AmbientChoice } from "./ambient.js";
 import { showCaptureHelp } from "./capture_help.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
@@ -22,10 +23,14 @@ const stack = new Stack(engine, {
     run.stackChanged();
     result.stackIs(stack.files);
   },
-  planned: () => run.stackPlanned(),
+  planned() {
+    run.stackPlanned();
+    ambient.renew();
+  },
 });
+const ambient = new AmbientChoice(stack);
 const rigs = new Rigs();
-const settings = new Settings(form, rigs, {
+const settings = new Settings(form, rigs, ambient, {
   device: () => engine.use(settings.device),
   color: () => {
     stack.color = settings.color;
