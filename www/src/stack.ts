@@ -4,6 +4,7 @@ import { FEWEST } from "./captures.js";
 import { byId, make, paint, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { noticesByFile } from "./file_notices.js";
+import { withoutExtension } from "./large/shrink.js";
 import { Roving } from "./roving.js";
 
 /** Longer side of a thumbnail in pixels. */
@@ -104,6 +105,13 @@ export class Stack {
     return entries.filter((entry) => entry !== this.#ambient?.entry);
   }
 
+  /** All files that show the object, with the lamp or without, among {@link files}. */
+  get pictures(): ReadonlySet<File> {
+    const { marked, named } = this.lampless;
+    const ambient = marked && this.#ambient ? [this.#ambient.file] : [];
+    return new Set([...this.photographs, ...named, ...ambient]);
+  }
+
   /** The mask among the files. */
   get mask(): File | undefined {
     return this.#entries[this.#plan.mask ?? -1]?.file;
@@ -126,8 +134,12 @@ export class Stack {
     if (ambient && (ambient.file.name === name || ambient.file.name.endsWith(`/${name}`)))
       return ambient.entry;
     const alike = this.#entries.filter(({ file }) => file.name.endsWith(`/${name}`));
+    // Photographs that were made smaller have another extension.
+    const stem = withoutExtension(name);
+    const akin = this.#entries.filter(({ file }) => withoutExtension(file.name) === stem);
     return (
-      this.#entries.find(({ file }) => file.name === name) ?? (alike.length === 1 ? alike[0] : undefined)
+      this.#entries.find(({ file }) => file.name === name) ??
+      (alike.length === 1 ? alike[0] : akin.length === 1 ? akin[0] : undefined)
     );
   }
 

@@ -24,7 +24,6 @@ before(async () => {
   tab = page.page;
   await page.device("cpu");
   await page.quality("fast");
-  tab.setDefaultTimeout(60_000);
 });
 after(() => page.close());
 
