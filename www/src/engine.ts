@@ -15,6 +15,11 @@ export class Engine {
     this.#current = this.#start();
   }
 
+  /** What computes; the processor, as long as nothing has started. */
+  get kind(): "gpu" | "cpu" {
+    return this.#live?.device.kind ?? "cpu";
+  }
+
   /** Starts the estimator anew on another device. */
   use(choice: DeviceChoice): void {
     if (choice === this.#choice) return;

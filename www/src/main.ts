@@ -1,9 +1,11 @@
+import { AmbientChoice } from "./ambient.js";
 import { showCaptureHelp } from "./capture_help.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
+import { SizeChoice } from "./large/size.js";
 import { LightHand } from "./lights/hand.js";
 import { Rigs } from "./lights/rigs.js";
 import { MaskSetting } from "./mask/setting.js";
@@ -19,23 +21,30 @@ const intro = new Intro();
 const engine = new Engine();
 const stack = new Stack(engine, {
   changed() {
+    size.wait();
     run.stackChanged();
     result.stackIs(stack.files);
   },
-  planned: () => run.stackPlanned(),
+  planned() {
+    run.stackPlanned();
+    ambient.renew();
+    void size.renew();
+  },
 });
+const ambient = new AmbientChoice(stack);
 const rigs = new Rigs();
-const settings = new Settings(form, rigs, {
+const settings = new Settings(form, rigs, ambient, {
   device: () => engine.use(settings.device),
   color: () => {
     stack.color = settings.color;
   },
 });
 const result = new ResultView(engine);
-const run = new Run(form, engine, stack, settings, (estimate) => {
+const size = new SizeChoice(form, engine, stack, settings);
+const run = new Run(form, engine, stack, settings, size, ({ estimate, ...taken }) => {
   intro.hide();
   const format = settings.options.normalFormat ?? "opengl";
-  result.show({ estimate, files: stack.files, name: stackName, format });
+  result.show({ estimate, ...taken, files: stack.files, name: stackName, format });
   hand.show(estimate);
 });
 

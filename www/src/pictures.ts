@@ -54,9 +54,9 @@ export class Pictures {
   show(outcome: Outcome): void {
     this.#current?.distrust.close();
     this.#solid.close();
-    const { estimate, files } = outcome;
+    const { estimate, used } = outcome;
     const { width, height, normalMap, albedo } = estimate;
-    const photographs = new Photographs(this.engine, estimate, files);
+    const photographs = new Photographs(this.engine, estimate, used);
     const distrust = new Distrust(estimate, photographs);
     this.#current = { outcome, photographs, distrust };
     this.#solid.light(this.relighting.lamps.all, this.relighting.look);

@@ -29,6 +29,11 @@ export class ProgressView {
     this.#whole.hidden = false;
   }
 
+  /** Says what is done before the run. */
+  prepare(words: string): void {
+    this.#words.textContent = words;
+  }
+
   show({ stage, fraction, stageFraction }: Progress): void {
     this.#bar.value = fraction;
     this.#tellTimeLeft(fraction);

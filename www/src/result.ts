@@ -13,6 +13,10 @@ export interface Outcome {
   readonly estimate: Estimate;
   /** The files of the stack as they were then. */
   readonly files: readonly File[];
+  /** The same as the estimator got them: photographs may have been made smaller. */
+  readonly used: readonly File[];
+  /** At which size photographs were taken; empty for their own. */
+  readonly size: string;
   /** What people call that stack. */
   readonly name: string;
   /** Which way green points in its files. */
@@ -60,7 +64,7 @@ export class ResultView {
     this.#pictures.format = format;
     this.#pictures.show(outcome);
     this.#derive.show(estimate);
-    showFacts(estimate);
+    showFacts(estimate, outcome.size);
     sayLines(byId("plan"), estimate.planWords);
     showSeconds(estimate);
     this.#downloads.show(estimate.files, name);
@@ -109,10 +113,10 @@ export class ResultView {
   }
 }
 
-function showFacts(estimate: Estimate): void {
+function showFacts(estimate: Estimate, size: string): void {
   const { width, height, lights, mask, device, quality } = estimate;
   const facts: [string, string][] = [
-    ["Photographs", `${lights.length} of ${width} × ${height} pixels`],
+    ["Photographs", `${lights.length} of ${width} × ${height} pixels${size && `, ${size}`}`],
     ["Mask", `${mask.words}, ${mask.pixels.toLocaleString("en")} pixels`],
     ["Device", device],
     ["Quality", quality],

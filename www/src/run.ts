@@ -1,6 +1,8 @@
 import type { Estimate, EstimateOptions, InputPlan, Progress } from "normalight";
 import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
+import { type Shrinking, shrunk, sizeWords } from "./large/shrink.js";
+import type { SizeChoice } from "./large/size.js";
 import { ProgressView } from "./progress.js";
 import type { Settings } from "./settings.js";
 import type { Stack } from "./stack.js";
@@ -9,6 +11,15 @@ import type { Stack } from "./stack.js";
 interface Given {
   readonly files: readonly File[];
   readonly options: EstimateOptions;
+}
+
+/** What a run gave. */
+export interface Done {
+  readonly estimate: Estimate;
+  /** The files as the estimator got them. */
+  readonly used: readonly File[];
+  /** At which size the photographs were taken; empty for their own. */
+  readonly size: string;
 }
 
 /** Starts, follows and cancels runs. */
@@ -21,13 +32,16 @@ export class Run {
   readonly #why = byId("start-why");
   readonly #progress = new ProgressView();
   #running: AbortController | undefined;
+  /** At which size the result that is shown was made: what is made from it again must fit to its mask. */
+  #times: Shrinking = 1;
 
   constructor(
     private readonly form: HTMLFormElement,
     private readonly engine: Engine,
     private readonly stack: Stack,
     private readonly settings: Settings,
-    private readonly finished: (estimate: Estimate) => void,
+    private readonly size: SizeChoice,
+    private readonly finished: (done: Done) => void,
   ) {
     form.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -92,16 +106,17 @@ export class Run {
     say(this.#problem, "");
     say(this.#status, "");
     sayLines(this.#notices, []);
-    const estimate = await this.#estimate(running.signal, given);
+    const done = await this.#estimate(running.signal, given);
     this.#running = undefined;
     this.#show(false);
     // Only now: the page has its final shape, and the focus goes to the result.
-    if (estimate) this.finished(estimate);
+    if (done) this.finished(done);
   }
 
   /** The result; nothing when there is none, which the page then says. */
-  async #estimate(signal: AbortSignal, given?: Given): Promise<Estimate | undefined> {
+  async #estimate(signal: AbortSignal, given?: Given): Promise<Done | undefined> {
     const files = given?.files ?? this.stack.files;
+    const times = given ? this.#times : this.size.times;
     const options = {
       ...(given?.options ?? this.settings.optionsFor(this.stack.photographs)),
       signal,
@@ -112,11 +127,17 @@ export class Run {
       },
     };
     try {
-      const estimate = await this.engine.with((normalight) => normalight.estimate(files, options));
+      const used = await shrunk(files, this.stack.pictures, times, signal, (done, of) =>
+        this.#progress.prepare(`Making photographs smaller: ${done + 1} of ${of}`),
+      );
+      const estimate = await this.engine.with((normalight) => normalight.estimate(used, options));
       say(this.#status, `Done in ${total(estimate).toFixed(1)} s.`);
       // What the lights that were found are worth is known only now.
       sayLines(this.#notices, doubtful(estimate.planWords));
-      return estimate;
+      this.#times = times;
+      this.size.learn(estimate);
+      const size = sizeWords(times, this.size.whole);
+      return { estimate: size ? sized(estimate, size) : estimate, used, size };
     } catch (error) {
       if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
       else say(this.#problem, wordsOf(error));
@@ -140,7 +161,22 @@ export class Run {
   }
 }
 
+/** An estimate that says at which size photographs were taken, in words and in its report. */
+function sized(estimate: Estimate, size: string): Estimate {
+  const words = `photographs: taken ${size}, as PNG of 8 bits that the page made of them`;
+  const text = new TextEncoder();
+  const files = estimate.files.map((file) => {
+    if (file.name !== "report.json") return file;
+    const report = JSON.parse(new TextDecoder().decode(file.bytes));
+    return {
+      ...file,
+      bytes: text.encode(`${JSON.stringify({ ...report, photographs_taken: size }, null, 2)}\n`),
+    };
+  });
+  return { ...estimate, files, planWords: [words, ...estimate.planWords] };
+}
+
 /** Seconds of all stages. */
-export function total({ seconds }: Estimate): number {
+export function total({ seconds }: Pick<Estimate, "seconds">): number {
   return seconds.reduce((sum, stage) => sum + stage.seconds, 0);
 }

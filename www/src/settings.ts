@@ -1,4 +1,5 @@
 import type { ColorMode, DeviceChoice, EstimateOptions, Quality } from "normalight";
+import type { AmbientChoice } from "./ambient.js";
 import { byId, chosen } from "./dom.js";
 import { lightsOf, toCsv } from "./lights/light_text.js";
 import { RigChoice } from "./lights/rig_choice.js";
@@ -74,10 +75,17 @@ export class Settings {
   readonly #changed: { device(): void; color(): void };
   /** The user's colour, while files that know their own have theirs. */
   #ownColor: ColorMode | undefined;
+  readonly #ambient: AmbientChoice;
   #drawn: File | undefined;
 
-  constructor(form: HTMLFormElement, rigs: Rigs, changed: { device(): void; color(): void }) {
+  constructor(
+    form: HTMLFormElement,
+    rigs: Rigs,
+    ambient: AmbientChoice,
+    changed: { device(): void; color(): void },
+  ) {
     this.#form = form;
+    this.#ambient = ambient;
     this.#changed = changed;
     this.#mask = new FileSetting(form, "mask");
     this.#lights = new FileSetting(form, "lights", tableOf);
@@ -162,7 +170,7 @@ export class Settings {
       mask: this.#mask.file ?? (wholeFrame ? "none" : "auto"),
       ...(lights ? { lights, lightAxes: chosen(this.#form, "light-axes") } : {}),
       ...(images === "all" ? {} : { images: Number(images) }),
-      ambient: chosen(this.#form, "ambient") as "none" | "auto",
+      ambient: this.#ambient.setting,
       align: chosen(this.#form, "align") === "yes",
       quality: chosen(this.#form, "quality") as Quality,
       normalFormat: chosen(this.#form, "normal-format") as "opengl" | "directx",

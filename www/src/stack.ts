@@ -1,8 +1,10 @@
 import type { ColorMode, Notice, Plan } from "normalight";
+import { asAmbient } from "./ambient.js";
 import { FEWEST } from "./captures.js";
 import { byId, make, paint, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { noticesByFile } from "./file_notices.js";
+import { withoutExtension } from "./large/shrink.js";
 import { Roving } from "./roving.js";
 
 /** Longer side of a thumbnail in pixels. */
@@ -30,6 +32,10 @@ export class Stack {
   readonly #problems = byId("file-problems");
   #entries: Entry[] = [];
   #plan: Plan = NOTHING;
+  /** The photograph that was marked as taken without the lamp, and the file that tells the estimator so. */
+  #ambient: { readonly entry: Entry; readonly file: File } | undefined;
+  /** A list of the user names that photograph: it must stay where it is, and its file is one more. */
+  #ambientListed = false;
   /** The archives that the files came out of. */
   #archives: readonly string[] = [];
   /** What is wrong with the files as a whole. */
@@ -53,21 +59,57 @@ export class Stack {
 
   /** Why no run can begin with these files; empty when one can, as far as is known. */
   get lacking(): string {
-    const { length } = this.#plan.images;
+    const { length } = this.photographs;
     if (this.#entries.length === 0) return "Choose three photographs or more.";
     if (!this.#planned || this.#pages || length >= FEWEST) return "";
     if (length === 0) return "There is no photograph among these files; three are needed.";
     return `${length === 1 ? "One photograph is" : "Two photographs are"} not enough: three are needed.`;
   }
 
-  /** All files, photographs or not. */
+  /** All files, photographs or not, as the estimator is to get them. */
   get files(): File[] {
-    return this.#entries.map(({ file }) => file);
+    const { entry: marked, file: ambient } = this.#ambient ?? {};
+    if (!ambient || this.#ambientListed)
+      return [...this.#entries.map(({ file }) => file), ...(ambient ? [ambient] : [])];
+    return this.#entries.map((entry) => (entry === marked ? ambient : entry.file));
   }
 
   /** The photographs among the files, as far as the plan is known. */
   get photographs(): File[] {
-    return this.#plan.images.flatMap((index) => this.#entries[index]?.file ?? []);
+    const entries = this.#plan.images.flatMap((index) => this.#entries[index] ?? []);
+    return entries.filter((entry) => entry !== this.#ambient?.entry).map(({ file }) => file);
+  }
+
+  /** The files that may be taken without the lamp: all photographs, and those that say so in their names. */
+  get lampless(): { files: readonly File[]; marked: File | undefined; named: readonly File[] } {
+    const named = this.#namedAmbient.map(({ file }) => file);
+    const marked = this.#ambient?.entry.file;
+    const among = new Set([...this.photographs, ...named, ...(marked ? [marked] : [])]);
+    // In the order of the list, so that the marked one keeps its place.
+    const files = this.#entries.map(({ file }) => file).filter((file) => among.has(file));
+    return { files, marked, named };
+  }
+
+  /** Says which photograph was taken without the lamp; none, or none that is known. */
+  markAmbient(file: File | undefined): void {
+    const entry = this.#entries.find((other) => other.file === file);
+    if (entry === this.#ambient?.entry) return;
+    this.#ambient = entry && { entry, file: asAmbient(entry.file) };
+    this.#lookAgain();
+  }
+
+  /** What the plan takes for photographs without lamp, by their names; not the marked one. */
+  get #namedAmbient(): Entry[] {
+    const left = this.#plan.leftOut.filter(({ reason }) => reason.kind === "ambient");
+    const entries = left.flatMap(({ file }) => this.#entryOf(file) ?? []);
+    return entries.filter((entry) => entry !== this.#ambient?.entry);
+  }
+
+  /** All files that show the object, with the lamp or without, among {@link files}. */
+  get pictures(): ReadonlySet<File> {
+    const { marked, named } = this.lampless;
+    const ambient = marked && this.#ambient ? [this.#ambient.file] : [];
+    return new Set([...this.photographs, ...named, ...ambient]);
   }
 
   /** The mask among the files. */
@@ -77,7 +119,8 @@ export class Stack {
 
   /** The file of a name, as results give it: without the folders before it where that is clear. */
   fileOf(name: string): File | undefined {
-    return this.#entryOf(name)?.file;
+    const entry = this.#entryOf(name);
+    return entry && entry === this.#ambient?.entry ? this.#ambient.file : entry?.file;
   }
 
   /** The thumbnail of a file. */
@@ -87,9 +130,16 @@ export class Stack {
   }
 
   #entryOf(name: string): Entry | undefined {
+    const ambient = this.#ambient;
+    if (ambient && (ambient.file.name === name || ambient.file.name.endsWith(`/${name}`)))
+      return ambient.entry;
     const alike = this.#entries.filter(({ file }) => file.name.endsWith(`/${name}`));
+    // Photographs that were made smaller have another extension.
+    const stem = withoutExtension(name);
+    const akin = this.#entries.filter(({ file }) => withoutExtension(file.name) === stem);
     return (
-      this.#entries.find(({ file }) => file.name === name) ?? (alike.length === 1 ? alike[0] : undefined)
+      this.#entries.find(({ file }) => file.name === name) ??
+      (alike.length === 1 ? alike[0] : akin.length === 1 ? akin[0] : undefined)
     );
   }
 
@@ -127,7 +177,8 @@ export class Stack {
     remove.type = "button";
     remove.title = `Remove ${file.name}`;
     remove.setAttribute("aria-label", remove.title);
-    const tile = make("li", "", picture, make("span", "name", file.name), remove);
+    const room = make("span", "room", "room light");
+    const tile = make("li", "", picture, make("span", "name", file.name), room, remove);
     tile.title = file.name;
     const entry: Entry = { file, tile, picture };
     remove.tabIndex = -1;
@@ -147,6 +198,7 @@ export class Stack {
 
   /** The files or their colour have changed. */
   #lookAgain(): void {
+    if (this.#ambient && !this.#entries.includes(this.#ambient.entry)) this.#ambient = undefined;
     // Said at once: the words of a run that begins before all files are looked at must stay.
     this.#planned = this.#entries.length === 0;
     this.#heard.changed();
@@ -161,14 +213,17 @@ export class Stack {
     const [entries, color] = [this.#entries, this.#color];
     this.#problem = "";
     try {
-      const unpacked = await this.#engine.with((normalight) => normalight.unpack(this.files));
+      // Where a photograph is marked, everything is unpacked.
+      const unpacked = this.#ambient
+        ? undefined
+        : await this.#engine.with((normalight) => normalight.unpack(this.files));
       if (signal.aborted) return;
       if (unpacked && this.#archives.length === 0) {
         this.#entries = unpacked.files.map((file) => this.#entry(file));
         this.#archives = unpacked.archives;
         return await this.#look();
       }
-      const plan = await this.#engine.with((normalight) => normalight.plan(this.files));
+      const plan = await this.#planOf();
       if (signal.aborted) return;
       const single = plan.images.length === 1 ? this.files[plan.images[0] ?? 0] : undefined;
       this.#pages = single !== undefined && (await isTiff(single));
@@ -178,9 +233,8 @@ export class Stack {
       this.mark(plan.notices);
       this.#show();
       this.#heard.planned();
-      for (const index of [...plan.images, plan.mask]) {
-        const entry = index === undefined ? undefined : entries[index];
-        if (entry && entry.shown !== color) await this.#lookAt(entry, color, signal);
+      for (const entry of this.#shown) {
+        if (entries.includes(entry) && entry.shown !== color) await this.#lookAt(entry, color, signal);
       }
     } catch (error) {
       if (signal.aborted) return;
@@ -188,6 +242,18 @@ export class Stack {
       this.#problem = wordsOf(error);
       this.#show();
     }
+  }
+
+  async #planOf(): Promise<Plan> {
+    const ask = () => this.#engine.with((normalight) => normalight.plan(this.files));
+    this.#ambientListed = false;
+    if (!this.#ambient) return await ask();
+    const at = this.#entries.indexOf(this.#ambient.entry);
+    const plan = await ask().catch(() => undefined);
+    if (plan && !plan.images.includes(at)) return plan;
+    // It has another name than the list gives it, or the list decides against the name.
+    this.#ambientListed = true;
+    return await ask();
   }
 
   async #lookAt(entry: Entry, color: ColorMode, signal: AbortSignal): Promise<void> {
@@ -208,11 +274,22 @@ export class Stack {
     }
   }
 
-  #show(): void {
+  /** What is shown as thumbnails: photographs, those without lamp, and the mask. */
+  get #shown(): Entry[] {
     const { images, mask } = this.#plan;
-    const order = mask === undefined ? images : [...images, mask];
-    const shown = order.flatMap((index) => this.#entries[index] ?? []);
-    for (const entry of shown) entry.tile.classList.toggle("mask", entry === this.#entries[mask ?? -1]);
+    const photographs = images.flatMap((index) => this.#entries[index] ?? []);
+    const maskEntry = this.#entries[mask ?? -1];
+    const marked = this.#ambient?.entry;
+    const others = [...this.#namedAmbient, ...(marked ? [marked] : []), ...(maskEntry ? [maskEntry] : [])];
+    return [...photographs.filter((entry) => !others.includes(entry)), ...others];
+  }
+
+  #show(): void {
+    const shown = this.#shown;
+    for (const entry of shown) {
+      entry.tile.classList.toggle("mask", entry === this.#entries[this.#plan.mask ?? -1]);
+      entry.tile.classList.toggle("ambient", entry === this.#ambient?.entry);
+    }
     const focused = document.activeElement;
     this.#list.replaceChildren(...shown.map(({ tile }) => tile));
     this.#roving.update();
@@ -230,11 +307,13 @@ export class Stack {
   }
 
   #words(): string {
-    const { images, mask } = this.#plan;
-    const words = [images.length === 1 ? "1 photograph" : `${images.length} photographs`];
-    const maskFile = this.#entries[mask ?? -1];
+    const { length } = this.photographs;
+    const words = [length === 1 ? "1 photograph" : `${length} photographs`];
+    const marked = this.#ambient?.entry;
+    if (marked) words.push(`without the lamp ${marked.file.name}`);
+    const maskFile = this.#entries[this.#plan.mask ?? -1];
     if (maskFile) words.push(`mask ${maskFile.file.name}`);
-    const other = this.#entries.length - images.length - (maskFile ? 1 : 0);
+    const other = this.#entries.length - length - (marked ? 1 : 0) - (maskFile ? 1 : 0);
     if (other > 0) words.push(other === 1 ? "1 other file" : `${other} other files`);
     if (this.#archives.length > 0) words.push(`out of ${this.#archives.join(", ")}`);
     return words.join(" · ");

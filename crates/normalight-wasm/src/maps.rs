@@ -1,10 +1,12 @@
 //! Maps of numbers, on their way to JavaScript and back.
-use crate::error::Failure;
 use js_sys::Float32Array;
-#[cfg(feature = "cpu")]
-use normalight_core::{Mask, NormalMap, Vec3};
 use serde::{Deserialize, Serialize};
 use tsify::Tsify;
+#[cfg(feature = "cpu")]
+use {
+    crate::error::Failure,
+    normalight_core::{Mask, NormalMap, Vec3},
+};
 
 /// Numbers with their shape, rows from the top.
 #[derive(Debug, Clone, Serialize, Deserialize, Tsify)]

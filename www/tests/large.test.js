@@ -1,0 +1,83 @@
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { greyPng, hugePng } from "./support/files.js";
+import { Page } from "./support/page.js";
+
+/** @typedef {import("./support/files.js").TestFile} TestFile */
+
+const SIDE = 2000;
+/** Photographs of four megapixels. @type {TestFile[]} */
+const large = [
+  greyPng("001.png", SIDE, SIDE, 200, "x"),
+  greyPng("002.png", SIDE, SIDE, 200, "y"),
+  greyPng("003.png", SIDE, SIDE, 200, "both"),
+];
+/** @type {Page} */
+let page;
+/** @type {import("playwright-core").Page} */
+let tab;
+
+before(async () => {
+  page = await Page.open({ webgpu: false });
+  tab = page.page;
+  await page.device("cpu");
+  await page.quality("fast");
+});
+after(() => page.close());
+
+/** A mask with a small square in its middle, as a portable grey map. @param {number} side @returns {TestFile} */
+function square(side) {
+  const pixels = Uint8Array.from({ length: side * side }, (_, at) => {
+    const [x, y] = [at % side, Math.floor(at / side)];
+    return Math.abs(x - side / 2) < 24 && Math.abs(y - side / 2) < 24 ? 255 : 0;
+  });
+  return { name: "mask.pgm", bytes: Buffer.concat([Buffer.from(`P5 ${side} ${side} 255\n`), pixels]) };
+}
+
+test("what large photographs cost is said, and they are taken at a quarter of their size", async () => {
+  await page.upload([...large, square(SIDE / 4)]);
+  await tab.waitForSelector(
+    '#large-words:has-text("3 photographs of 4.0 megapixels: about 0.9 GB of memory; about 4 min")',
+  );
+  assert.ok(await tab.isChecked('input[name="size"][value="1"]'));
+  await page.thumbnails(large.length + 1);
+  await tab.click('label:has(input[name="size"][value="4"])');
+  await tab.waitForSelector('#large-words:has-text("3 photographs of 0.3 megapixels: about 0.4 GB")');
+  assert.equal(await page.estimate(), "");
+  const words = "at a quarter of their size, from 2000 × 2000 pixels";
+  assert.ok((await tab.textContent("#facts"))?.includes(`3 of 500 × 500 pixels, ${words}`));
+  assert.ok((await tab.textContent("#plan"))?.includes(words));
+  assert.equal(JSON.parse(String(await page.download("report.json"))).photographs_taken, words);
+  assert.match((await tab.textContent("#large-words")) ?? "", /as fast as the last run was/);
+  assert.ok(await tab.isHidden("#result-stale"));
+  // Photographs beside the result are those that were used.
+  await tab.selectOption("#viewer-map", "residual");
+  await tab.waitForSelector("#viewer-spread:has-text('difference in %')");
+});
+
+test("photographs for which there is no memory are made smaller unasked, and small ones are not asked about", async () => {
+  await page.upload(["1.png", "2.png", "3.png"].map((name) => hugePng(name)));
+  await tab.waitForSelector('#large-why:has-text("More memory than there is for a page (4.0 GB)")');
+  assert.ok(await tab.isChecked('input[name="size"][value="4"]'));
+  await tab.click('label:has(input[name="size"][value="1"])');
+  await tab.waitForSelector('#large-why:has-text("the run may fail")');
+  await page.upload(
+    ["x", "y", "both"].map((lit) => greyPng(`${lit}.png`, 32, 32, 200, /** @type {"x"} */ (lit))),
+  );
+  await page.thumbnails(3);
+  await tab.waitForSelector("#large", { state: "hidden" });
+});
+
+test("photographs of 16 bits are only taken whole, and the page says why", async () => {
+  const deep = large.map(({ name, bytes }) => {
+    const copy = Uint8Array.from(bytes);
+    // Where the header has the bits of a sample.
+    copy[24] = 16;
+    return { name, bytes: copy };
+  });
+  await page.upload(deep);
+  await tab.waitForSelector('#large-why:has-text("only be taken whole: 001.png has 16 bits a sample")');
+  assert.ok(await tab.isDisabled('input[name="size"][value="2"]'));
+  assert.ok(await tab.isChecked('input[name="size"][value="1"]'));
+  page.assertQuiet();
+});
