@@ -27,20 +27,23 @@ const LINTED: [&str; 5] = [
     "normalight-model",
 ];
 
-/// A module: an example of the crate, with the feature that it is built with.
+/// A module: an example of the crate, with the feature that it is built with, and its budget in megabytes (`docs/size.md`).
 struct Module {
     name: &'static str,
     feature: &'static str,
+    most: f64,
 }
 
 const MODULES: [Module; 2] = [
     Module {
         name: "normalight",
         feature: "cpu",
+        most: 6.8,
     },
     Module {
         name: "normalight_gpu",
         feature: "gpu",
+        most: 19.6,
     },
 ];
 
@@ -144,7 +147,7 @@ impl Toolchain {
 
     /// Compiles the modules.
     pub fn build(&self, workspace: &Workspace) -> Result<()> {
-        for Module { name, feature } in MODULES {
+        for Module { name, feature, .. } in MODULES {
             let mut command = self.build_command(workspace);
             run::run(command.args(["--example", name, "--features", feature]))?;
         }
@@ -263,7 +266,7 @@ pub fn bindgen(workspace: &Workspace) -> Result<()> {
     // Made aside and renamed: who reads web/wasm never meets half of it.
     let aside = workspace.root.join("web/wasm.new");
     remove(&aside)?;
-    for (module, Module { name, .. }) in modules.iter().zip(MODULES) {
+    for (module, Module { name, most, .. }) in modules.iter().zip(MODULES) {
         let mut bindgen = Bindgen::new();
         bindgen.input_path(module).out_name(name).typescript(true);
         // The package names the module's address itself, once: bundlers copy the module for each.
@@ -276,12 +279,14 @@ pub fn bindgen(workspace: &Workspace) -> Result<()> {
             .web(true)
             .and_then(|web| web.generate(&aside))
             .with_context(|| format!("wasm-bindgen cannot read {}", module.display()))?;
-        let written = aside.join(format!("{name}_bg.wasm"));
+        let written = megabytes(&aside.join(format!("{name}_bg.wasm")))?;
         workspace.say(&format!(
-            "bindgen: {name} has {:.2} MB ({:.2} MB as compiled)",
-            megabytes(&written)?,
+            "bindgen: {name} has {written:.2} MB ({:.2} MB as compiled)",
             megabytes(module)?
         ));
+        if written > most {
+            bail!("{name} has {written:.2} MB, at most {most} are wanted: see docs/size.md");
+        }
     }
     for name in WEIGHTS {
         let (from, to) = (shipped.join(name), aside.join(name));
