@@ -1,4 +1,6 @@
 import { defineConfig } from "vite";
+import { offline } from "./plugins/offline.js";
+import { policy } from "./plugins/policy.js";
 
 export default defineConfig({
   // Relative addresses: the page runs from any folder of any server.
@@ -8,4 +10,5 @@ export default defineConfig({
   build: { target: "es2023", chunkSizeWarningLimit: 1000 },
   // The package's worker is a module.
   worker: { format: "es" },
+  plugins: [policy(), offline()],
 });

@@ -11,7 +11,8 @@ export class Engine {
   /** What `#current` gave. */
   #live: Normalight | undefined;
 
-  constructor() {
+  /** @param loaded hears each time that it is there */
+  constructor(private readonly loaded: () => void) {
     this.#current = this.#start();
   }
 
@@ -70,6 +71,7 @@ export class Engine {
         if (this.#current !== started) return;
         this.#live = normalight;
         this.#tell(normalight);
+        this.loaded();
       },
       (error: unknown) => {
         if (this.#current === started) this.#show("failed", wordsOf(error));

@@ -6,29 +6,38 @@ import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
 import { SizeChoice } from "./large/size.js";
-import { LightHand } from "./lights/hand.js";
+import { isChanged, LightHand } from "./lights/hand.js";
+import { toCsv } from "./lights/light_text.js";
 import { Rigs } from "./lights/rigs.js";
 import { MaskSetting } from "./mask/setting.js";
-import { ResultView } from "./result.js";
+import { Offline } from "./offline.js";
+import { type Outcome, ResultView } from "./result.js";
 import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
+import type { Bench } from "./session/bench.js";
+import { Session } from "./session/session.js";
 import { Settings } from "./settings.js";
 import { Stack } from "./stack.js";
 import { nameOf } from "./stack_name.js";
 
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
-const engine = new Engine();
+const engine = new Engine(() => offline.keep());
 const stack = new Stack(engine, {
   changed() {
     size.wait();
     run.stackChanged();
     result.stackIs(stack.files);
+    offline.look();
+    // Files are kept once they are out of their archives.
+    if (stack.files.length === 0) session.changed("stack");
+    else session.begun();
   },
   planned() {
     run.stackPlanned();
     ambient.renew();
     void size.renew();
+    session.changed("stack");
   },
 });
 const ambient = new AmbientChoice(stack);
@@ -38,15 +47,24 @@ const settings = new Settings(form, rigs, ambient, {
   color: () => {
     stack.color = settings.color;
   },
+  any: () => session.changed("settings"),
 });
 const result = new ResultView(engine);
 const size = new SizeChoice(form, engine, stack, settings);
 const run = new Run(form, engine, stack, settings, size, ({ estimate, ...taken }) => {
-  intro.hide();
   const format = settings.options.normalFormat ?? "opengl";
-  result.show({ estimate, ...taken, files: stack.files, name: stackName, format });
-  hand.show(estimate);
+  show({ estimate, ...taken, files: stack.files, name: stackName, format });
 });
+
+/** The result that is shown. */
+let outcome: Outcome | undefined;
+function show(shown: Outcome): void {
+  intro.hide();
+  outcome = shown;
+  result.show(shown);
+  hand.show(shown.estimate);
+  session.changed("outcome");
+}
 
 // What is kept and shown follows this choice at once.
 form.addEventListener("change", ({ target }) => {
@@ -61,6 +79,7 @@ const hand = new LightHand({
   rigs,
   again: (files, options) => run.again(files, { ...settings.optionsOfPart, ...options }),
   shine: (x, y) => result.shineFrom(x, y),
+  changed: () => session.changed("hand"),
 });
 new MaskSetting(engine, stack, settings);
 
@@ -101,6 +120,40 @@ function take(files: File[]): void {
   replace(files);
 }
 const folders = new FolderChoice(take);
+
+const session = new Session({
+  bench: () => ({
+    name: stackName || nameOf(stack.files),
+    photographs: stack.photographs.length,
+    files: stack.files,
+    settings: settings.kept,
+    outcome,
+    hand: hand.held,
+  }),
+  restore,
+});
+
+/** Puts the session that was kept on the bench. */
+function restore(bench: Bench): void {
+  take([...bench.files]);
+  stackName = bench.name;
+  settings.restore(bench.settings);
+  if (bench.outcome) {
+    show(bench.outcome);
+    run.resume(bench.outcome.times);
+    // The photographs may have changed after it.
+    result.stackIs(stack.files);
+    if (bench.hand) hand.hold(bench.hand);
+    const format = settings.options.normalFormat ?? "opengl";
+    if (format !== bench.outcome.format) result.turnGreen(format).catch((error) => run.fail(wordsOf(error)));
+  } else if (bench.hand && isChanged(bench.hand)) {
+    // Their result was too large to be kept: the next one begins with them.
+    settings.handLights(new File([toCsv(bench.hand.lights)], "lights.csv", { type: "text/csv" }));
+  }
+}
+
+// Nothing is lost with an empty bench.
+const offline = new Offline(() => stack.files.length === 0 && outcome === undefined && !run.underWay);
 
 connect("pick-files", "files", take);
 connect("pick-folder", "folder", (files) => folders.found(filesOfFolder(files)));

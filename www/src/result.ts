@@ -3,6 +3,7 @@ import { Derive } from "./derive.js";
 import { byId, make, say, sayLines } from "./dom.js";
 import { Downloads, fileNameOf, type Kept } from "./downloads.js";
 import type { Engine } from "./engine.js";
+import type { Shrinking } from "./large/shrink.js";
 import { type Format, normalColours } from "./maps.js";
 import { Pictures } from "./pictures.js";
 import { total } from "./run.js";
@@ -17,6 +18,8 @@ export interface Outcome {
   readonly used: readonly File[];
   /** At which size photographs were taken; empty for their own. */
   readonly size: string;
+  /** How many times smaller that made their sides. */
+  readonly times: Shrinking;
   /** What people call that stack. */
   readonly name: string;
   /** Which way green points in its files. */

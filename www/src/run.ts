@@ -20,6 +20,7 @@ export interface Done {
   readonly used: readonly File[];
   /** At which size the photographs were taken; empty for their own. */
   readonly size: string;
+  readonly times: Shrinking;
 }
 
 /** Starts, follows and cancels runs. */
@@ -137,12 +138,17 @@ export class Run {
       this.#times = times;
       this.size.learn(estimate);
       const size = sizeWords(times, this.size.whole);
-      return { estimate: size ? sized(estimate, size) : estimate, used, size };
+      return { estimate: size ? sized(estimate, size) : estimate, used, size, times };
     } catch (error) {
       if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
       else say(this.#problem, wordsOf(error));
       return undefined;
     }
+  }
+
+  /** The result that is shown is one of another visit, made at this size. */
+  resume(times: Shrinking): void {
+    this.#times = times;
   }
 
   /** While a run is under way nothing but cancelling is possible. */

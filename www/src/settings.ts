@@ -5,18 +5,44 @@ import { lightsOf, toCsv } from "./lights/light_text.js";
 import { RigChoice } from "./lights/rig_choice.js";
 import type { Rigs } from "./lights/rigs.js";
 
+/** A file of a setting, and how the page calls it. */
+interface KeptFile {
+  readonly file: File;
+  readonly words: string;
+}
+
+/** The form's settings as they are kept for a reload. */
+export interface KeptSettings {
+  /** What is chosen, by the names of the form. */
+  readonly values: Readonly<Record<string, string>>;
+  readonly rig: string;
+  readonly ownColor: ColorMode | undefined;
+  readonly mask: KeptFile | undefined;
+  readonly maskIsDrawn: boolean;
+  readonly lights: KeptFile | undefined;
+}
+
 /** A setting that may be a file: its radio button asks for one. */
 class FileSetting {
   readonly #form: HTMLFormElement;
   readonly #name: string;
+  readonly #label: HTMLElement;
   #file: File | undefined;
 
-  /** @param convert brings a file into a form that the estimator reads */
-  constructor(form: HTMLFormElement, name: string, convert = async (file: File) => file) {
+  /**
+   * @param changed hears of another file
+   * @param convert brings a file into a form that the estimator reads
+   */
+  constructor(
+    form: HTMLFormElement,
+    name: string,
+    changed: () => void,
+    convert = async (file: File) => file,
+  ) {
     this.#form = form;
     this.#name = name;
+    this.#label = byId(`${name}-name`);
     const input = byId<HTMLInputElement>(`${name}-file`);
-    const label = byId(`${name}-name`);
     const radio = form.querySelector<HTMLInputElement>(`input[name="${name}"][value="file"]`);
     // A click on the chosen button asks again: `change` would not come.
     radio?.addEventListener("click", () => input.click());
@@ -25,7 +51,8 @@ class FileSetting {
       input.value = "";
       if (!file) return;
       this.#file = await convert(file);
-      label.textContent = file.name;
+      this.#label.textContent = file.name;
+      changed();
     });
     input.addEventListener("cancel", () => {
       if (!this.#file) form.querySelector<HTMLInputElement>(`input[name="${name}"]`)?.click();
@@ -35,7 +62,7 @@ class FileSetting {
   /** Takes a file that the page made, under a name of ours. */
   give(file: File, words: string): void {
     this.#file = file;
-    byId(`${this.#name}-name`).textContent = words;
+    this.#label.textContent = words;
     const radio = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"][value="file"]`);
     if (radio) radio.checked = true;
   }
@@ -44,10 +71,15 @@ class FileSetting {
   forget(): void {
     if (!this.#file) return;
     this.#file = undefined;
-    byId(`${this.#name}-name`).textContent = "File…";
+    this.#label.textContent = "File…";
     if (chosen(this.#form, this.#name) !== "file") return;
     const first = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"]`);
     if (first) first.checked = true;
+  }
+
+  /** The file that was chosen, used or not, and how it is called. */
+  get kept(): KeptFile | undefined {
+    return this.#file && { file: this.#file, words: this.#label.textContent ?? "" };
   }
 
   /** The file, when one was chosen and is to be used. */
@@ -72,7 +104,7 @@ export class Settings {
   readonly #mask: FileSetting;
   readonly #lights: FileSetting;
   readonly #rig: RigChoice;
-  readonly #changed: { device(): void; color(): void };
+  readonly #changed: { device(): void; color(): void; any(): void };
   /** The user's colour, while files that know their own have theirs. */
   #ownColor: ColorMode | undefined;
   readonly #ambient: AmbientChoice;
@@ -82,19 +114,20 @@ export class Settings {
     form: HTMLFormElement,
     rigs: Rigs,
     ambient: AmbientChoice,
-    changed: { device(): void; color(): void },
+    changed: { device(): void; color(): void; any(): void },
   ) {
     this.#form = form;
     this.#ambient = ambient;
     this.#changed = changed;
-    this.#mask = new FileSetting(form, "mask");
-    this.#lights = new FileSetting(form, "lights", tableOf);
+    this.#mask = new FileSetting(form, "mask", changed.any);
+    this.#lights = new FileSetting(form, "lights", changed.any, tableOf);
     this.#rig = new RigChoice(form, rigs);
     form.addEventListener("change", ({ target }) => {
       const name = target instanceof HTMLInputElement ? target.name : "";
       if (name === "color") this.#ownColor = undefined;
-      byId("light-axes").hidden = chosen(form, "lights") !== "file";
+      this.#showAxes();
       if (name === "device" || name === "color") changed[name]();
+      changed.any();
     });
   }
 
@@ -102,6 +135,14 @@ export class Settings {
   drawnMask(mask: File): void {
     this.#drawn = mask;
     this.#mask.give(mask, "Drawn");
+    this.#changed.any();
+  }
+
+  /** Takes lights that were set by hand, for the next run. */
+  handLights(lights: File): void {
+    this.#lights.give(lights, "Set by hand");
+    this.#showAxes();
+    this.#changed.any();
   }
 
   /** Whether the mask that counts is the drawn one. */
@@ -114,6 +155,41 @@ export class Settings {
     this.#mask.forget();
     this.#lights.forget();
     byId("light-axes").hidden = true;
+  }
+
+  #showAxes(): void {
+    byId("light-axes").hidden = chosen(this.#form, "lights") !== "file";
+  }
+
+  /** Everything, for a reload. */
+  get kept(): KeptSettings {
+    const fields = [...new FormData(this.#form)];
+    const values = fields.filter((field): field is [string, string] => typeof field[1] === "string");
+    return {
+      values: Object.fromEntries(values),
+      rig: this.#rig.chosen,
+      ownColor: this.#ownColor,
+      mask: this.#mask.kept,
+      maskIsDrawn: this.maskIsDrawn,
+      lights: this.#lights.kept,
+    };
+  }
+
+  /** Sets everything as it was kept. */
+  restore({ values, rig, ownColor, mask, maskIsDrawn, lights }: KeptSettings): void {
+    const before = { device: this.device, color: this.color };
+    if (mask) this.#mask.give(mask.file, mask.words);
+    this.#drawn = maskIsDrawn ? mask?.file : undefined;
+    if (lights) this.#lights.give(lights.file, lights.words);
+    for (const [name, value] of Object.entries(values)) {
+      const field = this.#form.elements.namedItem(name);
+      if (field instanceof RadioNodeList || field instanceof HTMLSelectElement) field.value = value;
+    }
+    this.#rig.chosen = rig;
+    this.#ownColor = ownColor;
+    this.#showAxes();
+    if (this.device !== before.device) this.#changed.device();
+    if (this.color !== before.color) this.#changed.color();
   }
 
   get device(): DeviceChoice {

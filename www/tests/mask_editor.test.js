@@ -192,11 +192,11 @@ test("a drawn mask is the mask of the run, and is there when the editor is opene
 });
 
 test("photographs that only the estimator decodes are shown, too", async () => {
-  const values = Buffer.from(Array.from({ length: 64 * 48 }, (_, at) => at % 64));
-  const raw = ["1.pgm", "2.pgm", "3.pgm"].map((name) => ({
-    name,
-    bytes: Buffer.concat([Buffer.from("P5\n64 48\n255\n"), values]),
-  }));
+  const lit = [(/** @type {number} */ x) => x, (/** @type {number} */ x) => 63 - x, () => 40];
+  const raw = lit.map((value, index) => {
+    const values = Buffer.from(Array.from({ length: 64 * 48 }, (_, at) => 60 + value(at % 64)));
+    return { name: `${index + 1}.pgm`, bytes: Buffer.concat([Buffer.from("P5\n64 48\n255\n"), values]) };
+  });
   await page.upload(raw);
   await page.thumbnails(3);
   await open();

@@ -10,6 +10,19 @@ import { toCsv } from "./light_text.js";
 import type { Rigs } from "./rigs.js";
 import { LightTable } from "./table.js";
 
+/** Lights in the hand as they are kept for a reload: as they are, and as the estimate has them. */
+export interface Hand {
+  readonly lights: readonly HandLight[];
+  readonly left: readonly number[];
+  readonly found: readonly HandLight[];
+  readonly foundLeft: readonly number[];
+}
+
+/** Whether somebody has changed these lights. */
+export function isChanged({ lights, left, found }: Hand): boolean {
+  return left.length > 0 || lights.some((light, index) => light !== found[index]);
+}
+
 /** What the hand needs of the page. */
 export interface HandPage {
   readonly stack: Stack;
@@ -18,6 +31,8 @@ export interface HandPage {
   again(files: File[], options: Pick<EstimateOptions, "lights" | "mask">): Promise<void>;
   /** Shows the object under a lamp in this direction. */
   shine(x: number, y: number): void;
+  /** The lights were changed. */
+  changed(): void;
 }
 
 /** Furthest from the middle that a light is dragged: a lamp in the plane of the picture lights nothing. */
@@ -82,6 +97,24 @@ export class LightHand {
     }
     this.#found = [...this.#lights];
     this.#foundLeft = new Set(this.#left);
+    this.#draw();
+  }
+
+  /** The lights and what was done to them; nothing before a result. */
+  get held(): Hand | undefined {
+    if (!this.#estimate) return undefined;
+    const [lights, left] = [[...this.#lights], [...this.#left]];
+    return { lights, left, found: [...this.#found], foundLeft: [...this.#foundLeft] };
+  }
+
+  /** Takes lights as they were held; the result that they belong to is shown. */
+  hold({ lights, left, found, foundLeft }: Hand): void {
+    // A light that is in both lists has not changed; the browser's copies are one object, too.
+    this.#lights = [...lights];
+    this.#found = [...found];
+    this.#left.clear();
+    for (const index of left) this.#left.add(index);
+    this.#foundLeft = new Set(foundLeft);
     this.#draw();
   }
 
@@ -179,6 +212,7 @@ export class LightHand {
     say(this.#words, tooFew ? "Three photographs at least must stay." : words.join(", "));
     this.#again.disabled = !changed || tooFew;
     this.#undo.disabled = !changed;
+    this.#page.changed();
   }
 
   /** The normals anew from these lights; the stage that estimates lights is left out. */

@@ -29,6 +29,18 @@ export class RigChoice {
     return this.#radio.checked ? this.#chosen : undefined;
   }
 
+  /** The name of the rig in the list, used or not. */
+  get chosen(): string {
+    return this.#select.value;
+  }
+
+  /** Chooses a rig by its name; one that is gone is not used. */
+  set chosen(name: string) {
+    if (this.#rigs.all.some((rig) => rig.name === name)) this.#select.value = name;
+    else if (this.#radio.checked) this.#leave();
+    this.#show();
+  }
+
   /** Why the rig does not fit to so many photographs; empty when it does. */
   lacking(photographs: number): string {
     const { rig } = this;
@@ -59,12 +71,15 @@ export class RigChoice {
     );
     if (all.some(({ name }) => name === before)) this.#select.value = before;
     this.#radio.disabled = all.length === 0;
-    if (all.length === 0 && this.#radio.checked) {
-      const first = this.#radio.form?.querySelector<HTMLInputElement>('input[name="lights"]');
-      if (first) first.checked = true;
-      first?.dispatchEvent(new Event("change", { bubbles: true }));
-    }
+    if (all.length === 0 && this.#radio.checked) this.#leave();
     this.#show();
+  }
+
+  /** The lights are estimated, as there is no such rig. */
+  #leave(): void {
+    const first = this.#radio.form?.querySelector<HTMLInputElement>('input[name="lights"]');
+    if (first) first.checked = true;
+    first?.dispatchEvent(new Event("change", { bubbles: true }));
   }
 
   #show(): void {

@@ -32,30 +32,42 @@ export class Page {
     page.on("console", (message) => {
       // Without a GPU the browser says that showing what WebGL drew takes time.
       if (/GL Driver Message \(OpenGL, Performance/.test(message.text())) return;
+      if (message.text() === "Service Worker registration blocked by Playwright") return;
       if (["error", "warning"].includes(message.type())) this.#complaints.push(message.text());
     });
     page.on("pageerror", (error) => this.#complaints.push(String(error)));
     page.on("requestfailed", (request) => this.#complaints.push(`${request.url()} failed`));
   }
 
-  /** Opens the built page. @param {{ webgpu: boolean }} options */
-  static async open({ webgpu }) {
+  /**
+   * Opens the built page: from a server of its own, or at an address.
+   * @param {{ webgpu: boolean, offline?: boolean, address?: string, args?: string[] }} options
+   * `offline`: with its service worker, which answers before a test's routes do
+   */
+  static async open({ webgpu, offline = false, address, args = [] }) {
     const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
     assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
     const root = fileURLToPath(new URL("../..", import.meta.url));
-    const server = await preview({
-      root,
-      logLevel: "silent",
-      preview: { host: "127.0.0.1", port: 0, strictPort: false },
+    const server =
+      address === undefined
+        ? await preview({
+            root,
+            logLevel: "silent",
+            preview: { host: "127.0.0.1", port: 0, strictPort: false },
+          })
+        : undefined;
+    const devices = webgpu ? ["--enable-unsafe-webgpu"] : [];
+    const browser = await chromium.launch({ executablePath, args: [...QUIET, ...devices, ...args] });
+    const context = await browser.newContext({
+      viewport: { width: 1280, height: 900 },
+      serviceWorkers: offline ? "allow" : "block",
     });
-    const args = webgpu ? [...QUIET, "--enable-unsafe-webgpu"] : QUIET;
-    const browser = await chromium.launch({ executablePath, args });
-    const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+    const page = await context.newPage();
     const opened = new Page(page, async () => {
       await browser.close();
-      await server.close();
+      await server?.close();
     });
-    await page.goto(server.resolvedUrls?.local[0] ?? "");
+    await page.goto(address ?? server?.resolvedUrls?.local[0] ?? "");
     await opened.ready();
     return opened;
   }

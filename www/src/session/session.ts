@@ -1,0 +1,121 @@
+import { byId, say, wordsOf } from "../dom.js";
+import type { Hand } from "../lights/hand.js";
+import type { Outcome } from "../result.js";
+import type { KeptSettings } from "../settings.js";
+import type { Bench, KeptOutcome, KeptStack, Part } from "./bench.js";
+import { SessionKeeper } from "./keeper.js";
+import { unpack } from "./pack.js";
+import { SessionStore } from "./store.js";
+
+/** What the session needs of the page. */
+export interface SessionPage {
+  bench(): Bench;
+  /** Puts what was kept on the bench. */
+  restore(bench: Bench): void;
+}
+
+/** The session of this browser: what is on the bench is kept, and offered after a reload or a crash. */
+export class Session {
+  readonly #page: SessionPage;
+  readonly #store = new SessionStore();
+  readonly #keeper: SessionKeeper;
+  readonly #offer = byId("session");
+  readonly #problem = byId("session-problem");
+
+  constructor(page: SessionPage) {
+    this.#page = page;
+    this.#keeper = new SessionKeeper(this.#store, page.bench, (words) => say(byId("stack-kept"), words));
+    byId("session-forget").addEventListener("click", () => void this.#forget());
+    byId("session-restore").addEventListener("click", () => void this.#restore());
+    void this.#store.granted.then(() => this.#find());
+  }
+
+  /** A stack was begun: whoever begins anew has answered the offer. */
+  begun(): void {
+    this.#offer.hidden = true;
+    say(this.#problem, "");
+  }
+
+  /** A part of the bench has changed. */
+  changed(part: Part): void {
+    this.#keeper.changed(part);
+  }
+
+  /** Offers what the last visit left; nothing is put back unasked. */
+  async #find(): Promise<void> {
+    try {
+      const stack = await this.#store.get<KeptStack>("stack");
+      if (this.#page.bench().files.length > 0) {
+        // Another window had its session until now.
+        this.#keeper.changed("stack");
+        return;
+      }
+      if (!stack) return;
+      const { name, photographs, time } = stack;
+      const count = photographs === 1 ? "1 photograph" : `${photographs} photographs`;
+      byId("session-words").textContent = `Go on with ${name} (${count}, from ${since(time)})`;
+      this.#offer.hidden = false;
+    } catch {
+      // A browser that keeps nothing has nothing to offer; it says so when there is something to keep.
+    }
+  }
+
+  async #forget(): Promise<void> {
+    this.#leave();
+    say(this.#problem, "");
+    try {
+      await this.#store.clear();
+    } catch (error) {
+      say(this.#problem, `The photographs are still kept: ${wordsOf(error)}`);
+    }
+  }
+
+  async #restore(): Promise<void> {
+    this.#leave();
+    try {
+      const [stack, settings, outcome, hand] = (await this.#store.getMany<unknown>([
+        "stack",
+        "settings",
+        "outcome",
+        "hand",
+      ])) as [KeptStack, KeptSettings, KeptOutcome | undefined, Hand | undefined];
+      const ofOutcome = [...(outcome?.files ?? []), ...(outcome?.used ?? [])];
+      const files = await this.#files([...new Set([...stack.files, ...ofOutcome])]);
+      const listed = (parts: readonly string[]) => parts.flatMap((part) => files.get(part) ?? []);
+      const { name, photographs } = stack;
+      const shown = outcome && {
+        ...outcome,
+        estimate: (await unpack(outcome.estimate)) as Outcome["estimate"],
+        files: listed(outcome.files),
+        used: listed(outcome.used),
+      };
+      // Other files were taken meanwhile: those count.
+      if (this.#page.bench().files.length > 0) return;
+      this.#keeper.adopt(stack, ofOutcome, files);
+      this.#page.restore({ name, photographs, files: listed(stack.files), settings, outcome: shown, hand });
+      say(this.#problem, "");
+    } catch (error) {
+      say(this.#problem, `What was kept cannot be read: ${wordsOf(error)}`);
+    }
+  }
+
+  async #files(parts: readonly string[]): Promise<Map<string, File>> {
+    const files = await this.#store.getMany<File>(parts);
+    if (files.some((file) => !(file instanceof File))) throw new Error("photographs are missing.");
+    return new Map(parts.map((part, index) => [part, files[index] as File]));
+  }
+
+  /** The offer is answered; the focus would be lost with it. */
+  #leave(): void {
+    this.#offer.hidden = true;
+    byId("pick-files").focus();
+  }
+}
+
+/** A time of today, or a day and a time. */
+function since(time: number): string {
+  const then = new Date(time);
+  const clock = then.toLocaleTimeString("en", { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
+  if (then.toDateString() === new Date().toDateString()) return clock;
+  return `${then.toLocaleDateString("en", { day: "numeric", month: "long" })}, ${clock}`;
+}
