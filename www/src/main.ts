@@ -39,6 +39,7 @@ const stack = new Stack(engine, {
     void size.renew();
     session.changed("stack");
   },
+  pictured: () => hand.pictured(),
 });
 const ambient = new AmbientChoice(stack);
 const rigs = new Rigs();

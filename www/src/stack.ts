@@ -23,10 +23,20 @@ interface Entry {
   problem?: string;
 }
 
+/** Who hears of the files. */
+interface Heard {
+  /** There are others. */
+  changed(): void;
+  /** It is known what they are. */
+  planned(): void;
+  /** One more can be seen. */
+  pictured(): void;
+}
+
 /** The files of the user: in their order, with thumbnails, and with what is wrong with them. */
 export class Stack {
   readonly #engine: Engine;
-  readonly #heard: { changed(): void; planned(): void };
+  readonly #heard: Heard;
   readonly #list = byId("thumbnails");
   readonly #roving = new Roving(this.#list, ".remove");
   readonly #problems = byId("file-problems");
@@ -49,7 +59,7 @@ export class Stack {
   /** A single picture that may hold all photographs as its pages. */
   #pages = false;
 
-  constructor(engine: Engine, heard: { changed(): void; planned(): void }) {
+  constructor(engine: Engine, heard: Heard) {
     this.#engine = engine;
     this.#heard = heard;
     this.#list.addEventListener("keydown", ({ key, target }) => {
@@ -265,6 +275,7 @@ export class Stack {
       paint(entry.picture, width, height, rgba);
       entry.shown = color;
       entry.tile.dataset.state = "shown";
+      this.#heard.pictured();
     } catch (error) {
       if (signal.aborted) throw error;
       entry.shown = color;

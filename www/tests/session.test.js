@@ -96,6 +96,7 @@ test("photographs, mask, settings, result and lights set by hand survive a reloa
   assert.equal(await tab.isVisible("#result-stale"), false);
   assert.deepEqual(await page.download("normals.png"), normals);
   assert.equal(await tab.textContent(".light-words"), hand);
+  await tab.waitForSelector(".light-detail > canvas");
   page.assertQuiet();
 });
 

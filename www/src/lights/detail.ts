@@ -43,13 +43,18 @@ export class LightDetail {
     this.#used.checked = used;
     this.#name.textContent = light.file;
     this.#words.textContent = `${inWords(light)}; ${sureness(light.confidence)}`;
+    this.draw(picture);
+    this.#tell();
+  }
+
+  /** The photograph, as soon as there is one to be seen. */
+  draw(picture: HTMLCanvasElement | undefined): void {
     this.#picture.hidden = picture === undefined || picture.width === 0;
     if (picture && picture.width > 0) {
       this.#picture.width = picture.width;
       this.#picture.height = picture.height;
       context(this.#picture).drawImage(picture, 0, 0);
     }
-    this.#tell();
   }
 
   #tell(): void {

@@ -191,6 +191,12 @@ export class LightHand {
       .filter(({ index }) => !this.#left.has(index));
   }
 
+  /** A photograph can be seen now. */
+  pictured(): void {
+    const selected = this.#lights[this.#selected];
+    if (selected) this.#detail.draw(this.#page.stack.pictureOf(selected.file));
+  }
+
   #draw(): void {
     const selected = this.#lights[this.#selected];
     this.#map.show(this.#lights, this.#left, this.#selected);
