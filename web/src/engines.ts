@@ -2,6 +2,7 @@ import type { Engine, InputFile } from "../wasm/normalight.js";
 import type { Engine as GpuEngine } from "../wasm/normalight_gpu.js";
 import { type Assets, assets } from "./assets.js";
 import { chooseDevice, cpu } from "./device.js";
+import { messageOf } from "./errors.js";
 import { Arrivals, type FetchAsset, fetched } from "./fetch.js";
 import { loadGpuModule, loadModule, type Module } from "./load.js";
 import type { Tasks } from "./protocol.js";
@@ -124,9 +125,4 @@ function onCpu(module: Module, light: InputFile, normal: InputFile, shipped: boo
     if (Object(error).kind !== "device") throw error;
     throw { kind: "load", message: messageOf(error) };
   }
-}
-
-function messageOf(error: unknown): string {
-  const { message } = Object(error) as { message?: unknown };
-  return typeof message === "string" ? message : String(error);
 }

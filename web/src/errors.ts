@@ -27,3 +27,9 @@ export class NormalightError extends Error {
     return this.code === "load" || this.code === "unsupported" ? "device" : this.code;
   }
 }
+
+/** The words of whatever was thrown. */
+export function messageOf(error: unknown): string {
+  const { message } = Object(error) as { message?: unknown };
+  return typeof message === "string" ? message : String(error);
+}

@@ -1,6 +1,7 @@
 import type { InputFile } from "../wasm/normalight.js";
 import { bytesOf, HEAD, read, readForPlan } from "./decode.js";
 import { Engines } from "./engines.js";
+import { messageOf } from "./errors.js";
 import type { FetchAsset } from "./fetch.js";
 import type { FailureKind, Thrown } from "./generated.js";
 import type { Module } from "./load.js";
@@ -182,10 +183,10 @@ async function unpack(wasm: Module, files: readonly StackFile[]): Promise<Tasks[
 
 /** The module throws `{ kind, message }`; everything else is a surprise. */
 function failure(error: unknown): Omit<Thrown, "kind"> & { kind: FailureKind | "load" } {
-  const { kind, message } = Object(error) as { kind?: unknown; message?: unknown };
+  const { kind } = Object(error) as { kind?: unknown };
   return {
     kind: kind === "input" || kind === "cancelled" || kind === "load" ? kind : "device",
-    message: typeof message === "string" ? message : String(error),
+    message: messageOf(error),
   };
 }
 

@@ -52,9 +52,9 @@ const settings = new Settings(form, rigs, ambient, {
 });
 const result = new ResultView(engine);
 const size = new SizeChoice(form, engine, stack, settings);
-const run = new Run(form, engine, stack, settings, size, ({ estimate, ...taken }) => {
+const run = new Run(form, engine, stack, settings, size, (done) => {
   const format = settings.options.normalFormat ?? "opengl";
-  show({ estimate, ...taken, files: stack.files, name: stackName, format });
+  show({ ...done, files: stack.files, name: stackName, format });
 });
 
 /** The result that is shown. */

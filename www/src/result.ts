@@ -3,23 +3,15 @@ import { Derive } from "./derive.js";
 import { byId, make, say, sayLines } from "./dom.js";
 import { Downloads, fileNameOf, type Kept } from "./downloads.js";
 import type { Engine } from "./engine.js";
-import type { Shrinking } from "./large/shrink.js";
 import { type Format, normalColours } from "./maps.js";
 import { Pictures } from "./pictures.js";
-import { total } from "./run.js";
+import { type Done, total } from "./run.js";
 import { sameFiles } from "./stack_name.js";
 
 /** What a run was made of and gave. */
-export interface Outcome {
-  readonly estimate: Estimate;
+export interface Outcome extends Done {
   /** The files of the stack as they were then. */
   readonly files: readonly File[];
-  /** The same as the estimator got them: photographs may have been made smaller. */
-  readonly used: readonly File[];
-  /** At which size photographs were taken; empty for their own. */
-  readonly size: string;
-  /** How many times smaller that made their sides. */
-  readonly times: Shrinking;
   /** What people call that stack. */
   readonly name: string;
   /** Which way green points in its files. */

@@ -16,10 +16,11 @@ interface Given {
 /** What a run gave. */
 export interface Done {
   readonly estimate: Estimate;
-  /** The files as the estimator got them. */
+  /** The files as the estimator got them: photographs may have been made smaller. */
   readonly used: readonly File[];
   /** At which size the photographs were taken; empty for their own. */
   readonly size: string;
+  /** How many times smaller that made their sides. */
   readonly times: Shrinking;
 }
 

@@ -22,8 +22,7 @@ let tab;
 before(async () => {
   page = await Page.open({ webgpu: false });
   tab = page.page;
-  await page.device("cpu");
-  await page.quality("fast");
+  await page.quick();
 });
 after(() => page.close());
 

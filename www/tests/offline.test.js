@@ -26,8 +26,7 @@ after(async () => {
 
 /** A whole way from photographs to a result that is looked at. */
 async function wholeEstimate() {
-  await page.device("cpu");
-  await page.quality("fast");
+  await page.quick();
   await page.upload(AVIF_BALLS);
   await page.thumbnails(AVIF_BALLS.length);
   assert.equal(await page.estimate(), "");

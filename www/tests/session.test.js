@@ -58,8 +58,7 @@ async function offer() {
 }
 
 test("photographs, mask, settings, result and lights set by hand survive a reload", async () => {
-  await page.device("cpu");
-  await page.quality("fast");
+  await page.quick();
   await tab.click('label:has(input[name="normal-format"][value="directx"])');
   await page.upload(AVIF_BALLS);
   await page.thumbnails(4);

@@ -104,7 +104,6 @@ impl Toolchain {
             command.env_remove(name);
         }
         command.args(["--profile", PROFILE, "--target", TARGET, "--package", CRATE]);
-        command.arg("--no-default-features");
         if matches!(self, Self::Debian) {
             command.arg("-Zbuild-std=std,panic_abort");
         }

@@ -31,12 +31,28 @@ pub fn default_weights() -> Result<[Weights; 2], ModelError> {
     ])
 }
 
-/// SHA-256 of the weights that ship, in hexadecimal: the light network's and the normal network's. Who fetches the files
-/// instead of taking them from the crate knows by them that they arrived whole.
-pub const DEFAULT_HASHES: [&str; 2] = [
+/// SHA-256 of the weights that ship, in hexadecimal.
+const HASHES: [&str; 2] = [
     "8e60ddbc4550b653251ee17dc71629040997e36c7260fe6a9d5ffb765f56124f",
     "f3412fad2c6634f548561d9888acdbb0d9cfd9fa92dd8fe976fe86857e9c195e",
 ];
+
+/// Makes sure that weights are those that ship, light and normal network: for who fetches the files instead of taking them
+/// from the crate.
+///
+/// # Errors
+/// [`ModelError::CorruptWeights`] for others, or for files that did not arrive whole.
+pub fn expect_default_weights(weights: [&Weights; 2]) -> Result<(), ModelError> {
+    for (weights, expected) in weights.into_iter().zip(HASHES) {
+        if weights.hash() != expected {
+            return Err(ModelError::CorruptWeights {
+                name: weights.name().to_owned(),
+                reason: format!("its SHA-256 is {}, expected {expected}", weights.hash()),
+            });
+        }
+    }
+    Ok(())
+}
 
 #[cfg(test)]
 mod tests {
@@ -45,9 +61,8 @@ mod tests {
     #[test]
     fn the_hashes_are_those_of_the_files() {
         let [light, normal] = default_weights().unwrap();
-        light.expect_hash(DEFAULT_HASHES[0]).unwrap();
-        normal.expect_hash(DEFAULT_HASHES[1]).unwrap();
-        let other = light.expect_hash(DEFAULT_HASHES[1]).unwrap_err();
-        assert!(other.to_string().contains(light.hash()));
+        expect_default_weights([&light, &normal]).unwrap();
+        let other = expect_default_weights([&normal, &light]).unwrap_err();
+        assert!(other.to_string().contains(normal.hash()));
     }
 }

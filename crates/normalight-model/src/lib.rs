@@ -73,7 +73,7 @@ pub use auxiliary_tower::AuxiliaryTower;
 pub use cell_choice::CellChoice;
 pub use cell_site::{CellSite, light_cell_sites, normal_cell_sites};
 pub use cost::{Cost, NetworkCost, light_cost, normal_cost, operation_cost};
-pub use defaults::{DEFAULT_HASHES, default_weights, paper_genotypes};
+pub use defaults::{default_weights, expect_default_weights, paper_genotypes};
 pub use error::ModelError;
 pub use estimator::{EstimateInput, Estimator};
 pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};

@@ -102,20 +102,6 @@ impl Weights {
         &self.hash
     }
 
-    /// Makes sure that the file is the one of this hash.
-    ///
-    /// # Errors
-    /// [`ModelError::CorruptWeights`].
-    pub fn expect_hash(&self, expected: &str) -> Result<(), ModelError> {
-        if self.hash == expected {
-            return Ok(());
-        }
-        Err(ModelError::CorruptWeights {
-            name: self.name.clone(),
-            reason: format!("its SHA-256 is {}, expected {expected}", self.hash),
-        })
-    }
-
     /// Builds the light network on a device.
     ///
     /// # Errors

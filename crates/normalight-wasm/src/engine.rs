@@ -6,7 +6,7 @@ use crate::result::{Estimated, Run};
 use crate::settings::Settings;
 use burn::tensor::Device;
 use normalight_io::{NamedBytes, RunDescription, read_stack};
-use normalight_model::{DEFAULT_HASHES, EstimateInput, Estimator, Weights};
+use normalight_model::{EstimateInput, Estimator, Weights, expect_default_weights};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::*;
 
@@ -65,9 +65,7 @@ impl Engine {
         let light = Weights::from_bytes(&light.name, &light.bytes)?;
         let normal = Weights::from_bytes(&normal.name, &normal.bytes)?;
         if shipped {
-            for (weights, expected) in [&light, &normal].into_iter().zip(DEFAULT_HASHES) {
-                weights.expect_hash(expected)?;
-            }
+            expect_default_weights([&light, &normal])?;
         }
         Ok(Self {
             estimator: Estimator::new(&light, &normal, device)?,

@@ -109,10 +109,15 @@ export class Page {
     await this.thumbnails(photographs.length + 1);
   }
 
-  /** The result of twelve photographs of a sample, as quick as can be. @param {Parameters<Page["sample"]>[0]} sample */
-  async estimateSample(sample) {
+  /** Estimates as quick as can be. */
+  async quick() {
     await this.device("cpu");
     await this.quality("fast");
+  }
+
+  /** The result of twelve photographs of a sample, as quick as can be. @param {Parameters<Page["sample"]>[0]} sample */
+  async estimateSample(sample) {
+    await this.quick();
     await this.images("12");
     await this.sample(sample);
     assert.equal(await this.estimate(), "");
