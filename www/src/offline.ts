@@ -11,20 +11,25 @@ export class Offline {
   readonly #free: () => boolean;
   /** A version that is complete and waits for this one to end. */
   #waiting: ServiceWorker | undefined;
+  /** Fulfilled once answers and other versions are listened for. */
+  readonly #following: Promise<void> | undefined;
 
   constructor(free: () => boolean) {
     this.#free = free;
     this.#reload.addEventListener("click", () => this.#ask("take over"));
     // Neither in windows without a secure address nor in every private one; the page works without.
-    navigator.serviceWorker?.register("./service-worker.js", { updateViaCache: "none" }).then(
+    const registering = navigator.serviceWorker?.register("./service-worker.js", { updateViaCache: "none" });
+    this.#following = registering?.then(
       (registration) => registration && this.#follow(registration),
       () => undefined,
     );
   }
 
   /** The estimator is loaded: what it was loaded from can be kept without being in its way. */
-  keep(): void {
-    navigator.serviceWorker?.ready.then(({ active }) => active?.postMessage("keep" satisfies Asked));
+  async keep(): Promise<void> {
+    await this.#following;
+    const registration = await navigator.serviceWorker?.ready;
+    registration?.active?.postMessage("keep" satisfies Asked);
   }
 
   /** Something began or ended that a reload would lose. */

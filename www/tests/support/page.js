@@ -4,8 +4,9 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
 
-/** Milliseconds for the longest step, a run on a GPU that two processor cores imitate. */
-const PATIENCE = 480_000;
+/** Milliseconds for the longest step, and for a run on a GPU that two processor cores imitate. */
+const PATIENCE = 120_000;
+const PATIENCE_GPU = 480_000;
 
 const QUIET = [
   "--no-sandbox",
@@ -24,11 +25,12 @@ export class Page {
   /**
    * @param {import("playwright-core").Page} page
    * @param {() => Promise<void>} close
+   * @param {number} [patience]
    */
-  constructor(page, close) {
+  constructor(page, close, patience = PATIENCE) {
     this.page = page;
     this.close = close;
-    page.setDefaultTimeout(PATIENCE);
+    page.setDefaultTimeout(patience);
     page.on("console", (message) => {
       // Without a GPU the browser says that showing what WebGL drew takes time.
       if (/GL Driver Message \(OpenGL, Performance/.test(message.text())) return;
@@ -63,10 +65,11 @@ export class Page {
       serviceWorkers: offline ? "allow" : "block",
     });
     const page = await context.newPage();
-    const opened = new Page(page, async () => {
+    const close = async () => {
       await browser.close();
       await server?.close();
-    });
+    };
+    const opened = new Page(page, close, webgpu ? PATIENCE_GPU : undefined);
     await page.goto(address ?? server?.resolvedUrls?.local[0] ?? "");
     await opened.ready();
     return opened;
