@@ -17,6 +17,7 @@ const WORDS: Record<OutputName, string> & Record<string, string> = {
   "albedo.png": "colour without light",
   "mask.png": "the object's pixels",
   "normals-error.png": "how far off normals may be: grey / 4 degrees",
+  "normals-true-error.png": "how far off normals are: grey / 4 degrees",
   "report.json": "settings, device, seconds",
   "height.png": "depth, 16 bit grey",
   "height.tiff": "depth in pixels, float",

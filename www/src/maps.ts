@@ -49,8 +49,15 @@ export function layersOf(sources: Sources): Layer[] {
   const { estimate, photographs, distrust, depth, replayed, relit, told } = sources;
   const layers = [relit, normalsLayer(sources), albedoLayer(estimate)];
   if (depth) layers.push(depthLayer(estimate, depth));
-  const { normalErrors } = estimate;
-  if (normalErrors) layers.push(errorLayer(estimate, normalErrors.data));
+  const { normalErrors, trueErrors, trueErrorMap } = estimate;
+  if (normalErrors) {
+    const values = normalErrors.data.map((error) => (error === 0 ? Number.NaN : error));
+    layers.push(errorLayer(estimate, values, "errors", "Expected error of the normals"));
+  }
+  if (trueErrors && trueErrorMap) {
+    const name = `Error of the normals against ${trueErrors.file}`;
+    layers.push(errorLayer(estimate, trueErrorMap.data, "true-errors", name));
+  }
   layers.push({
     id: "distrust",
     name: "Where to distrust",
@@ -122,9 +129,8 @@ function depthLayer({ width, height }: Estimate, { data }: Depth): Layer {
   return { id: "depth", name: "Depth", load };
 }
 
-/** The errors of normals that are to be expected, by how far apart the views are that they are means of. */
-function errorLayer({ width, height }: Estimate, errors: Float32Array): Layer {
-  const values = errors.map((error) => (error === 0 ? Number.NaN : error));
+/** Errors of normals in degrees: those to be expected, by how far apart the views are that they are means of, or true ones. */
+function errorLayer({ width, height }: Estimate, values: Float32Array, id: string, name: string): Layer {
   const range = [0, quantile(values, 0.998)] as const;
   const load = () =>
     new Still(width, height, ramped(values, range), {
@@ -132,7 +138,7 @@ function errorLayer({ width, height }: Estimate, errors: Float32Array): Layer {
       range,
       words: (pixel) => `${short(values[pixel] ?? Number.NaN)}°`,
     });
-  return { id: "errors", name: "Expected error of the normals", load };
+  return { id, name, load };
 }
 
 /** Shares of a photograph's brightness as colours: light is where a matt surface explains it badly. */

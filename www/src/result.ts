@@ -116,6 +116,7 @@ function showFacts(estimate: Estimate, size: string): void {
     ["Device", device],
     ["Quality", quality],
     ["Errors to expect", errorWords(estimate)],
+    ...trueErrorWords(estimate),
     ["Time", `${total(estimate).toFixed(2)} s`],
   ];
   byId("facts").replaceChildren(
@@ -130,6 +131,15 @@ function errorWords({ expectedErrors: { lights, normals } }: Estimate): string {
     ...(typeof normals === "number" ? [`normals ${normals.toFixed(0)}°`] : []),
   ];
   return words.join(", ") || "unknown";
+}
+
+/** How far off the normals are, where true ones were among the files. */
+function trueErrorWords({ trueErrors }: Estimate): [string, string][] {
+  if (!trueErrors) return [];
+  const { file, mean, median, shares } = trueErrors;
+  const close = (100 * (shares[0] ?? 0)).toFixed(0);
+  const words = `${mean.toFixed(2)}° on average, ${median.toFixed(2)}° in the median, ${close} % under 11.25°`;
+  return [["Errors", `normals, against ${file}: ${words}`]];
 }
 
 /** The stages side by side on one bar, as long as they took, and in words below it. */

@@ -6,6 +6,7 @@
 mod engine;
 mod fresh;
 mod fuzz;
+mod lints;
 mod node;
 mod packages;
 mod run;
@@ -73,7 +74,8 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    match perform(Arguments::parse()) {
+    let done = lints::as_rustdoc().unwrap_or_else(|| perform(Arguments::parse()));
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             run::note(&format!("error: {error:#}"));

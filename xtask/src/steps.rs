@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 
+use crate::lints::{document, lint, own_driver};
 use crate::packages::Installing;
 use crate::run;
 use crate::setup::Tools;
@@ -24,14 +25,14 @@ pub enum Step {
     Deny,
     /// These tasks themselves: lints, documentation and tests.
     Xtask,
-    /// Lints of the native crates, with CUDA.
-    Clippy,
-    /// The documentation builds without warnings.
-    Docs,
-    /// The command and the native tests, compiled.
+    /// Lints of the native crates with CUDA; only when asked for, since it goes through all dependencies once more.
+    Cuda,
+    /// The command and the native tests, compiled and linted.
     Build,
     /// The native tests.
     Rust,
+    /// The documentation builds without warnings, and its examples run.
+    Docs,
     /// Both workflows on this machine, disturbed and not.
     Workflows,
     /// Lints of what runs in the browser.
@@ -74,7 +75,8 @@ const NATIVE: [&str; 6] = [
 
 /// All steps in order, without those left out.
 pub fn chosen(only: &[Step], skip: &[Step]) -> Vec<Step> {
-    let wanted = |step: &&Step| (only.is_empty() || only.contains(step)) && !skip.contains(step);
+    let usual = |step: &Step| only.is_empty() && *step != Step::Cuda;
+    let wanted = |step: &&Step| (usual(step) || only.contains(step)) && !skip.contains(step);
     Step::value_variants()
         .iter()
         .filter(wanted)
@@ -118,7 +120,7 @@ fn sum_up(workspace: &Workspace, times: &[(String, Duration)]) {
 fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
     for step in steps {
         match step {
-            Step::Fmt | Step::Clippy | Step::Xtask => tools.components()?,
+            Step::Fmt | Step::Xtask | Step::Cuda | Step::Build => tools.components()?,
             Step::Wasm => drop(tools.toolchain()?),
             Step::WasmClippy => {
                 tools.components()?;
@@ -133,7 +135,7 @@ fn prepare(tools: &Tools, steps: &[Step]) -> Result<()> {
             Step::Spelling => drop(tools.typos()?),
             Step::Deny => drop(tools.cargo_deny()?),
             Step::Workflows => drop(tools.engine()?),
-            Step::Docs | Step::Build | Step::Bindgen | Step::Types => {}
+            Step::Docs | Step::Bindgen | Step::Types => {}
         }
     }
     Ok(())
@@ -158,13 +160,10 @@ impl Step {
             command.args(NATIVE).args(after);
             command
         };
-        // With everything that can be built in, in one pass over the dependencies. Burn's CUDA compiler links LLVM, which
-        // its build script would download. Under this variable it leaves LLVM and its C++ alone: enough to check all
-        // Rust, not to link.
-        let checked = |subcommand: &str, after: &[&str]| {
-            let mut command = native(&[subcommand], &["--features", "normalight-cli/cuda"]);
-            command.args(after).env("DOCS_RS", "1");
-            command
+        let linted = |before: &[&str], after: &[&str]| {
+            let mut command = native(before, after);
+            lint(&mut command, &own_driver()?)?;
+            anyhow::Ok(command)
         };
         let npm = |arguments: &[&str]| anyhow::Ok(tools.node()?.npm(workspace, arguments));
         match self {
@@ -178,22 +177,26 @@ impl Step {
                 run::run(workspace.cargo(&docs).env("RUSTDOCFLAGS", "-D warnings"))?;
                 run::run(&mut workspace.cargo(&["test", "--package", "xtask"]))
             }
-            Self::Clippy => run::run(&mut checked(
-                "clippy",
-                &["--all-targets", "--", "-D", "warnings"],
-            )),
-            Self::Docs => {
-                run::run(checked("doc", &["--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
+            // Burn's CUDA compiler links LLVM, which its build script would download. Under this variable it leaves LLVM and
+            // its C++ alone: enough to check all Rust, not to link.
+            Self::Cuda => {
+                let after = ["--features", "normalight-cli/cuda", "--all-targets", "--"];
+                let mut command = native(&["clippy"], &after);
+                run::run(command.args(["-D", "warnings"]).env("DOCS_RS", "1"))
             }
-            // With the tests, although only the command is wanted: the features of development
-            // dependencies count then too, as they do in the next step.
-            Self::Build => run::run(&mut native(&["build"], &["--bins", "--tests"])),
+            // With all that the next two steps need, whose features count, too.
+            Self::Build => run::run(&mut linted(&["build"], &["--all-targets"])?),
             Self::Rust => {
-                let mut command = native(&["test"], &[]);
+                let mut command = linted(&["test"], &["--all-targets"])?;
                 if *tools.software_gpu()? {
                     // Its tests may not be left out.
                     command.env("NORMALIGHT_SOFTWARE_GPU", "1");
                 }
+                run::run(&mut command)
+            }
+            Self::Docs => {
+                let mut command = linted(&["test"], &["--doc"])?;
+                document(workspace, &mut command)?;
                 run::run(&mut command)
             }
             Self::Workflows => tools.engine()?.test(workspace),
@@ -229,8 +232,9 @@ mod tests {
     fn steps_keep_their_order() {
         let steps = chosen(&[Step::Wasm, Step::Fmt], &[]);
         assert_eq!(steps, [Step::Fmt, Step::Wasm]);
-        assert_eq!(chosen(&[], &[]).len(), Step::value_variants().len());
+        assert_eq!(chosen(&[], &[]).len(), Step::value_variants().len() - 1);
         assert!(!chosen(&[], &[Step::Docs]).contains(&Step::Docs));
+        assert_eq!(chosen(&[Step::Cuda], &[]), [Step::Cuda]);
     }
 
     #[test]

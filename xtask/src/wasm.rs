@@ -9,6 +9,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::fresh::stale;
+use crate::lints::{lint, own_driver, sysroot};
 use crate::packages::Packages;
 use crate::run;
 use crate::setup::rustup_may_not_install;
@@ -112,17 +113,12 @@ impl Toolchain {
 
     /// Lints the bindings for the browser and every crate of ours below it, with the calls banned that the
     /// browser does not have.
-    ///
-    /// Clippy's compiler stands in for rustc in a build, as `cargo clippy` has it do in a check: that would go through all
-    /// dependencies once more, for minutes, and the build needs them anyway. Our own crates are built again after it.
+    /// Our own crates are built again after it.
     pub fn clippy(&self, workspace: &Workspace) -> Result<()> {
         let driver = match self {
-            Self::Own => PathBuf::from(sysroot()?).join("bin/clippy-driver"),
+            Self::Own => own_driver()?,
             Self::Debian => PathBuf::from("/usr/bin/clippy-driver"),
         };
-        if !driver.is_file() {
-            bail!("{} is missing: it is a part of Clippy", driver.display());
-        }
         for module in MODULES {
             let mut command = self.build_command(workspace);
             for name in LINTED {
@@ -132,13 +128,8 @@ impl Toolchain {
             }
             command
                 .args(["--lib", "--features", module.feature])
-                .env("RUSTC_WORKSPACE_WRAPPER", &driver)
-                .env("CLIPPY_CONF_DIR", workspace.root.join("xtask/clippy-wasm"))
-                // As `cargo clippy -- -D warnings` hands it on.
-                .env(
-                    "CLIPPY_ARGS",
-                    ["-D", "warnings", ""].join("__CLIPPY_HACKERY__"),
-                );
+                .env("CLIPPY_CONF_DIR", workspace.root.join("xtask/clippy-wasm"));
+            lint(&mut command, &driver)?;
             run::run(&mut command)?;
         }
         Ok(())
@@ -154,16 +145,9 @@ impl Toolchain {
     }
 }
 
-/// The folder of the toolchain that built this program.
-fn sysroot() -> Result<String> {
-    let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let said = run::read(Command::new(rustc).args(["--print", "sysroot"]))?;
-    Ok(said.trim().to_owned())
-}
-
 fn own_has_target() -> bool {
     sysroot().is_ok_and(|sysroot| {
-        Path::new(&sysroot)
+        sysroot
             .join("lib/rustlib")
             .join(TARGET)
             .join("lib")

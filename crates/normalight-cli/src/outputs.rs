@@ -1,5 +1,5 @@
 //! What `estimate` says at the end.
-use normalight_io::{DerivedReport, ExpectedErrors, Report};
+use normalight_io::{DerivedReport, ExpectedErrors, Report, TruthErrors};
 
 /// What a person wants to know afterwards.
 pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
@@ -9,7 +9,7 @@ pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
         .map(|stage| format!("{} {:.2}", stage.stage, stage.seconds))
         .collect();
     format!(
-        "images:  {} of {}x{} pixels\nmask:    {}\nlights:  {}\ndevice:  {}\nquality: {}\n{}seconds: {}\nresults: {folder}: {}\n",
+        "images:  {} of {}x{} pixels\nmask:    {}\nlights:  {}\ndevice:  {}\nquality: {}\n{}{}seconds: {}\nresults: {folder}: {}\n",
         report.inputs.len(),
         report.width,
         report.height,
@@ -18,6 +18,7 @@ pub(crate) fn summary(report: &Report, files: &[&str], folder: &str) -> String {
         report.device,
         report.settings.quality.name(),
         expected(report.expected_errors),
+        measured(report.true_errors.as_ref()),
         seconds.join(", "),
         files.join(", "),
     )
@@ -33,6 +34,21 @@ fn expected(errors: ExpectedErrors) -> String {
         true => String::new(),
         false => format!("errors:  {} to be expected\n", said.join(", ")),
     }
+}
+
+/// How far off the result is, on a line.
+fn measured(errors: Option<&TruthErrors>) -> String {
+    let Some(errors) = errors else {
+        return String::new();
+    };
+    let [close, ..] = errors.shares;
+    format!(
+        "truth:   {}: normals {:.2} degrees off on average, {:.2} in the median, {:.0} % under 11.25\n",
+        errors.file,
+        errors.mean,
+        errors.median,
+        100.0 * close,
+    )
 }
 
 /// What is to be known of depth.

@@ -79,7 +79,8 @@ pub use light_coverage::LightCoverage;
 pub use mask::{Mask, MaskGuess, MaskSource};
 pub use mesh::{CornerNormals, MAX_TRIANGLES, TriangleMesh};
 pub use metrics::{
-    NormalError, intensity_error, mean_light_error, normal_error, normal_error_between,
+    NormalError, angle_to_truth, intensity_error, mean_light_error, normal_error,
+    normal_error_between,
 };
 pub use normal_map::NormalMap;
 pub use parallel::on_all_cores;

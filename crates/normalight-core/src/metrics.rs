@@ -47,21 +47,25 @@ pub fn normal_error(
     Ok(normal_error_between(pairs))
 }
 
-/// Mean angular error over pairs of (estimate, truth); pairs whose truth is zero are left out, and an
-/// estimate of zero, which says nothing, counts as a right angle.
+/// The angle between an estimated and a true normal in radians; an estimate of zero, which says nothing, counts as a right
+/// angle. `None` where the truth is zero.
+pub fn angle_to_truth(estimate: Vec3, truth: Vec3) -> Option<f32> {
+    match (estimate, truth) {
+        (_, Vec3::ZERO) => None,
+        (Vec3::ZERO, _) => Some(FRAC_PI_2),
+        (estimate, truth) => Some(angle_between(estimate, truth)),
+    }
+}
+
+/// Mean angular error over pairs of (estimate, truth), see [`angle_to_truth`]; pairs whose truth is zero are left out.
 pub fn normal_error_between(pairs: impl IntoIterator<Item = (Vec3, Vec3)>) -> NormalError {
     const LIMITS: [f32; 3] = [11.25, 22.5, 30.0];
     let mut sum = 0.0f64;
     let mut under = [0usize; 3];
     let mut angles = Vec::new();
     for (estimate, truth) in pairs {
-        if truth == Vec3::ZERO {
+        let Some(angle) = angle_to_truth(estimate, truth) else {
             continue;
-        }
-        let angle = if estimate == Vec3::ZERO {
-            FRAC_PI_2
-        } else {
-            angle_between(estimate, truth)
         };
         sum += f64::from(angle);
         angles.push(angle);

@@ -7,6 +7,7 @@ use crate::input::mask_label;
 use crate::input_plan::InputPlan;
 use crate::plan::{StackPlan, is_helper};
 use crate::shots::ambient::{Ambient, NamedAmbient};
+use crate::truth::{Truth, read_truth};
 use crate::{
     AmbientChoice, IoError, MaskChoice, Notice, ReadOptions, StackInput, left_out_lines, mask_file,
     shots,
@@ -125,6 +126,20 @@ pub(crate) fn assemble(
     if let Some(file) = &ambient.subtracted {
         left_out.retain(|left| base_name(&left.file) != file);
     }
+    let size = (stack.width(), stack.height());
+    let mut truth = None;
+    if let Some(index) = plan.truth {
+        // What only serves to be compared with stops nothing.
+        match load(index).and_then(|bytes| read_truth(&names[index], &bytes, size)) {
+            Ok(normals) => {
+                let file = base_name(&names[index]).to_owned();
+                truth = Some(Truth { file, normals });
+            }
+            Err(error) => notices.push(Notice::TruthUnread {
+                reason: error.to_string(),
+            }),
+        }
+    }
     let plan = InputPlan {
         photographs: stack
             .images()
@@ -137,6 +152,7 @@ pub(crate) fn assemble(
         color,
         lights: None,
         ambient: ambient.subtracted,
+        truth: truth.as_ref().map(|truth| truth.file.clone()),
         aligned,
         notices,
     };
@@ -146,6 +162,7 @@ pub(crate) fn assemble(
         mask_source,
         file_names,
         picked,
+        truth,
         plan,
     })
 }

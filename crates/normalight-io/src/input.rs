@@ -1,6 +1,6 @@
 //! What a stack is read from, how, and what comes out.
 use crate::input_plan::LightsDecision;
-use crate::{ColorMode, GivenLights, InputPlan, Limits, Notice};
+use crate::{ColorMode, GivenLights, InputPlan, Limits, Notice, Truth};
 use normalight_core::{
     ImageStack, Light, LightAgreement, LightCoverage, Mask, MaskSource, intensities_from_directions,
 };
@@ -91,6 +91,8 @@ pub struct StackInput {
     /// Position in `file_names` of each image of the stack: all of them unless
     /// [`ReadOptions::images`] chose some or one shows no lamp.
     pub picked: Vec<usize>,
+    /// True normals, where a file among the photographs has them.
+    pub truth: Option<Truth>,
     /// What was decided about the files, and what is doubtful.
     pub plan: InputPlan,
 }

@@ -23,6 +23,9 @@ pub struct InputPlan {
     pub lights: Option<LightsDecision>,
     /// The picture without lamp that was subtracted.
     pub ambient: Option<String>,
+    /// The true normals, which only serve to be compared with.
+    #[serde(default)]
+    pub truth: Option<String>,
     /// By how many pixels a photograph was moved at most, where that was asked for.
     pub aligned: Option<f32>,
     /// What is doubtful.
@@ -243,6 +246,9 @@ impl InputPlan {
         }
         if let Some(file) = &self.ambient {
             lines.push(format!("room light: that of {file}, subtracted"));
+        }
+        if let Some(file) = &self.truth {
+            lines.push(format!("true normals: {file}, to compare with"));
         }
         match self.aligned {
             Some(0.0) => lines.push("aligned: no photograph had to be moved".to_owned()),

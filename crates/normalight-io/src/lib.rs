@@ -67,6 +67,7 @@ mod source;
 mod stack;
 mod text;
 mod texture_maps;
+mod truth;
 mod turn;
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -120,3 +121,4 @@ pub use result_files::{OutputName, RunDescription, result_files};
 pub use stack::read_stack;
 pub use text::read_text;
 pub use texture_maps::{MapSettings, Outside, albedo_map_png, normal_map_png};
+pub use truth::{Truth, TruthErrors};

@@ -49,16 +49,17 @@ pub fn normals_png(map: &NormalMap, format: NormalFormat) -> Result<Vec<u8>, IoE
     png("normal map", image.map(DynamicImage::ImageRgb16))
 }
 
-/// Expected errors of normals as 8-bit grey PNG: four steps of grey a degree, black outside the object.
+/// Errors of normals as 8-bit grey PNG: four steps of grey a degree, black outside the object and where nothing is known.
 ///
 /// # Shapes
-/// `errors`: `[height, width]`, degrees.
+/// `errors`: `[height, width]`, degrees; not a number where nothing is known.
 ///
 /// # Errors
 /// [`IoError::Encode`] for errors of another size than the mask.
 pub fn normal_errors_png(errors: &[f32], mask: &Mask) -> Result<Vec<u8>, IoError> {
     let codes = errors.iter().zip(mask.inside());
     let code = |(&error, &inside): (&f32, &bool)| match inside {
+        true if error.is_nan() => 0,
         true => (4.0 * error).round().clamp(1.0, 255.0) as u8,
         false => 0,
     };

@@ -9,7 +9,6 @@ pub mod fuzzing;
 mod inside;
 mod intensities;
 mod lock;
-mod matlab;
 mod meshes;
 mod published;
 mod read;

@@ -97,6 +97,11 @@ pub enum Notice {
         /// Number of such samples.
         samples: usize,
     },
+    /// True normals that cannot be compared with.
+    TruthUnread {
+        /// The file and what is wrong with it.
+        reason: String,
+    },
     /// The photographs disagree about which side is up; pixels were taken as stored.
     Orientations {
         /// The shots that say otherwise than most.

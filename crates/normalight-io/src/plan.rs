@@ -9,6 +9,7 @@ pub use list::find_list;
 use crate::format::{base_name, is_image_content, may_hold_image, split_extension};
 use crate::input_plan::{LeftOut, LeftOutReason, Order};
 use crate::names::{NameKey, NameMatch, find, folded, stem};
+use crate::truth::truth_among;
 use crate::{IoError, Notice};
 use kinds::{Words, left_out_reason};
 use std::collections::BTreeMap;
@@ -25,6 +26,8 @@ pub struct StackPlan {
     pub mask: Option<usize>,
     /// Position of the picture without lamp among the names.
     pub ambient: Option<usize>,
+    /// Position of the true normals among the names.
+    pub truth: Option<usize>,
     /// What decided about images and order.
     pub order: Order,
     /// The other files that a person might miss, and why they are not among the images.
@@ -134,6 +137,11 @@ pub fn plan_contents<S: AsRef<str>>(
             });
         }
     }
+    // A list may have taken it for a photograph.
+    plan.truth = truth_among(names).filter(|index| !plan.images.contains(index));
+    if let Some(truth) = plan.truth {
+        plan.left_out.retain(|left| left.file != name(truth));
+    }
     plan.benchmark = benchmark::is_benchmark(names, list.map(|(_, text)| text));
     Ok(plan)
 }
@@ -200,6 +208,7 @@ fn listed<S: AsRef<str>>(
         images,
         mask: masks.first().copied(),
         ambient: None,
+        truth: None,
         order: Order::List(list.to_owned()),
         notices: notice.into_iter().collect(),
         benchmark: false,

@@ -1,4 +1,4 @@
-use crate::{ColorMode, InputPlan, IoError, NormalFormat};
+use crate::{ColorMode, InputPlan, IoError, NormalFormat, TruthErrors};
 use normalight_core::{Decoding, Estimate, Light, Mask, Quality, expected_light_error};
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +25,9 @@ pub struct Report {
     /// How far off the result may be.
     #[serde(default)]
     pub expected_errors: ExpectedErrors,
+    /// How far off the normals are, where true ones lie beside the photographs.
+    #[serde(default)]
+    pub true_errors: Option<TruthErrors>,
     /// What computed the result.
     pub device: String,
     /// Which weights were used.

@@ -36,6 +36,9 @@ pub enum OutputName {
     /// How far off each normal may be.
     #[serde(rename = "normals-error.png")]
     NormalsErrorPng,
+    /// How far off each normal is, where true ones are known.
+    #[serde(rename = "normals-true-error.png")]
+    NormalsTrueErrorPng,
     /// How the result came to be: a [`Report`].
     #[serde(rename = "report.json")]
     ReportJson,
@@ -76,6 +79,8 @@ impl RunDescription<'_> {
             plan: input.plan.clone(),
             lights_from: lights_label(given, refit),
             expected_errors: ExpectedErrors::of(estimate, &input.mask, given.is_some()),
+            true_errors: (input.truth.as_ref())
+                .and_then(|truth| truth.errors(estimate, &input.mask)),
             device: used,
             weights: WeightHashes::new(self.weights, given.is_some()),
             settings: ReportSettings {
@@ -125,6 +130,11 @@ pub fn result_files(
     ];
     if let Some(errors) = normal_errors {
         files.push(("normals-error.png", normal_errors_png(errors, &input.mask)?));
+    }
+    if let Some(truth) = &input.truth {
+        let errors = truth.map(normals, &input.mask);
+        let map = normal_errors_png(&errors, &input.mask)?;
+        files.push(("normals-true-error.png", map));
     }
     files.push(("report.json", report_json(report)?));
     Ok(files)

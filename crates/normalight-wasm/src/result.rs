@@ -5,8 +5,8 @@ use crate::maps::FloatMap;
 use crate::mask::MaskOrigin;
 use js_sys::Uint8Array;
 use normalight_io::{
-    ExpectedErrors, InputPlan, Report, StackInput, StageSeconds, albedo_rgba, normals_rgba,
-    result_files,
+    ExpectedErrors, InputPlan, Report, StackInput, StageSeconds, TruthErrors, albedo_rgba,
+    normals_rgba, result_files,
 };
 use normalight_model::{Estimate, Quality};
 use serde::Serialize;
@@ -52,6 +52,12 @@ pub struct Estimated {
     normal_errors: Option<FloatMap>,
     /// Mean of the errors that are to be expected, in degrees.
     expected_errors: ExpectedErrors,
+    /// How far off the normals are, where a file among the photographs has true ones.
+    #[tsify(optional)]
+    true_errors: Option<TruthErrors>,
+    /// The error of each normal in degrees, one a pixel, there; not a number where nothing is to be compared.
+    #[tsify(optional)]
+    true_error_map: Option<FloatMap>,
     /// The normals as 8-bit RGBA, transparent outside the object; rows from the top.
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Uint8Array<ArrayBuffer>")]
@@ -137,6 +143,11 @@ impl Estimated {
             normal_errors: (estimate.normal_errors.as_ref())
                 .map(|errors| FloatMap::new(width, height, |pixel| [errors[pixel]])),
             expected_errors: report.expected_errors,
+            true_errors: report.true_errors.clone(),
+            true_error_map: input.truth.as_ref().map(|truth| {
+                let errors = truth.map(&estimate.normals, &input.mask);
+                FloatMap::new(width, height, |pixel| [errors[pixel]])
+            }),
             normals: Uint8Array::from(normals.as_slice()),
             albedo: Uint8Array::from(albedo.as_slice()),
             files: result_files(input, estimate, report)?

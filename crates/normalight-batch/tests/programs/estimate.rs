@@ -113,6 +113,7 @@ fn results(
         .collect();
     let report = Report {
         expected_errors: Default::default(),
+        true_errors: None,
         version: "test".to_owned(),
         width: 40,
         height: 20,

@@ -1,6 +1,6 @@
 //! Pictures of what was found.
 use crate::{EvaluateError, Method};
-use normalight_core::{Mask, NormalMap, Vec3, angle_between};
+use normalight_core::{Mask, NormalMap, angle_to_truth};
 use normalight_io::{NormalFormat, normals_rgba};
 use std::io::Cursor;
 
@@ -57,13 +57,9 @@ pub fn errors_picture(
     let pixels = pairs
         .zip(mask.inside())
         .flat_map(|((&found, &truth), &inside)| {
-            if !inside || truth == Vec3::ZERO {
+            let angle = angle_to_truth(found, truth).filter(|_| inside);
+            let Some(degrees) = angle.map(f32::to_degrees) else {
                 return [0; 4];
-            }
-            let degrees = match found {
-                // Says nothing, and counts as a right angle in the figures, too.
-                Vec3::ZERO => 90.0,
-                found => angle_between(found, truth).to_degrees(),
             };
             let colour = colour(f64::from(degrees / MOST_DEGREES));
             [colour.r, colour.g, colour.b, 255]

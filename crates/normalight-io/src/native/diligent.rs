@@ -1,11 +1,11 @@
 //! DiLiGenT objects with their true lights and normals, for evaluation.
 use super::files::{display, file_name, read_error, read_file};
-use super::matlab::find_array;
 use super::read::read_paths;
 use crate::limits::{MAX_FILE_BYTES, MAX_TEXT_BYTES};
 use crate::text::read_text;
+use crate::truth::read_truth;
 use crate::{ColorMode, IoError, ReadOptions, StackInput};
-use normalight_core::{Light, NormalMap, Vec3};
+use normalight_core::{Light, NormalMap};
 use std::path::{Path, PathBuf};
 
 /// One object of the benchmark.
@@ -89,7 +89,7 @@ pub fn read_diligent_object(
     let truth = folder.join("Normal_gt.mat");
     let (width, height) = (input.stack.width(), input.stack.height());
     let bytes = read_file(&truth, MAX_FILE_BYTES)?;
-    let normals = parse_normals(&display(&truth), &bytes, width, height)?;
+    let normals = read_truth(&display(&truth), &bytes, (width, height))?;
     let folder_name = file_name(&folder.canonicalize().unwrap_or_else(|_| folder.to_owned()));
     let name = folder_name.strip_suffix("PNG").unwrap_or(&folder_name);
     Ok(DiligentObject {
@@ -98,37 +98,4 @@ pub fn read_diligent_object(
         lights,
         normals,
     })
-}
-
-/// True normals from a MATLAB file: the variable `Normal_gt`, `[height, width, 3]`.
-fn parse_normals(
-    name: &str,
-    bytes: &[u8],
-    width: usize,
-    height: usize,
-) -> Result<NormalMap, IoError> {
-    let wrong = |found: String| IoError::TruthFormat {
-        name: name.to_owned(),
-        found,
-        expected: format!("a variable Normal_gt of {height} x {width} x 3 real numbers"),
-    };
-    let area = width * height;
-    // Three doubles for each pixel, and the array's head.
-    let limit = 24 * area as u64 + 4096;
-    let array = find_array(bytes, "Normal_gt", limit)
-        .ok_or_else(|| wrong("no such array in MATLAB 5 format, or a damaged one".to_owned()))?;
-    let values = array.values;
-    let size: Vec<usize> = array.size.iter().map(|&side| side as usize).collect();
-    if size != [height, width, 3] || values.len() != 3 * area {
-        return Err(wrong(format!("{} numbers, size {size:?}", values.len())));
-    }
-    // MATLAB stores columns first.
-    let normals = (0..area)
-        .map(|pixel| {
-            let index = pixel / width + height * (pixel % width);
-            let component = |plane: usize| values[plane * area + index] as f32;
-            Vec3::new(component(0), component(1), component(2))
-        })
-        .collect();
-    Ok(NormalMap::new(width, height, normals))
 }

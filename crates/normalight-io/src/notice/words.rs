@@ -79,6 +79,9 @@ impl fmt::Display for Notice {
             Self::NotNumbers { file, samples } => {
                 write!(f, "{file}: {samples} samples are no numbers (NaN); taken as black")
             }
+            Self::TruthUnread { reason } => {
+                write!(f, "{reason}; nothing is compared with it")
+            }
             Self::Orientations { files } => write!(
                 f,
                 "{}: turned otherwise than the other shots by their EXIF orientation; pixels of all shots were taken as stored",

@@ -2,7 +2,9 @@
 use crate::common::{encode, mask_png, rgb8};
 use image::ImageFormat;
 use normalight_core::Vec3;
-use normalight_io::{IoError, list_diligent_objects, read_diligent_object, write_files};
+use normalight_io::{
+    IoError, ReadOptions, list_diligent_objects, read_diligent_object, read_paths, write_files,
+};
 use std::io::Write;
 use std::path::Path;
 
@@ -134,6 +136,39 @@ fn faults_are_named() {
     assert_eq!(listed.len(), 2);
     let error = read_diligent_object(&listed[0], None).unwrap_err();
     assert!(matches!(error, IoError::Read { name, .. } if name.ends_with("gone")));
+}
+
+/// Whoever estimates from such a folder is told how far off the result is.
+#[test]
+fn truth_is_found_beside_photographs() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("eggPNG");
+    write_object(&folder);
+    let read = || read_paths(std::slice::from_ref(&folder), &ReadOptions::default()).unwrap();
+    let input = read();
+    let known = input.truth.unwrap();
+    assert_eq!(
+        known.normals,
+        read_diligent_object(&folder, None).unwrap().normals
+    );
+    assert_eq!(input.plan.truth.as_deref(), Some("Normal_gt.mat"));
+    assert!(
+        input
+            .plan
+            .to_string()
+            .contains("true normals: Normal_gt.mat")
+    );
+    assert!(input.plan.left_out.is_empty());
+    // What cannot be compared with stops nothing, and is said.
+    write_files(&folder, &[("Normal_gt.mat", &truth()[..200])]).unwrap();
+    let input = read();
+    assert!(input.truth.is_none() && input.plan.truth.is_none());
+    assert!(
+        input
+            .plan
+            .to_string()
+            .contains("nothing is compared with it")
+    );
 }
 
 /// MATLAB compresses by default.

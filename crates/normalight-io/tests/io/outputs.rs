@@ -5,10 +5,20 @@ use normalight_core::{
 };
 use normalight_io::{
     ColorMode, ExpectedErrors, InputPlan, IoError, NormalFormat, OutputName, ReadOptions, Report,
-    ReportSettings, RunDescription, StackInput, StageSeconds, WeightHashes, albedo_png,
+    ReportSettings, RunDescription, StackInput, StageSeconds, Truth, WeightHashes, albedo_png,
     albedo_rgba, decode_mask, mask_png, normals_npy, normals_png, normals_rgba, report_json,
     result_files,
 };
+
+/// True normals of the upper half of 16x16 pixels, 30 degrees from the camera's direction.
+fn half_known() -> Truth {
+    let tilted = Vec3::new(0.5, 0.0, 0.75f32.sqrt());
+    let normals = (0..256).map(|pixel| if pixel < 128 { tilted } else { Vec3::ZERO });
+    Truth {
+        file: "Normal_gt.mat".into(),
+        normals: NormalMap::new(16, 16, normals.collect()),
+    }
+}
 
 fn map() -> NormalMap {
     let normals = vec![
@@ -111,6 +121,7 @@ fn reports_are_json() {
         plan: InputPlan::default(),
         lights_from: "network".into(),
         expected_errors: ExpectedErrors::default(),
+        true_errors: None,
         weights: WeightHashes {
             light: Some("ab".into()),
             normal: None,
@@ -163,6 +174,7 @@ fn reports_say_what_was_done_with_given_lights() {
         mask_source: MaskSource::WholeFrame,
         file_names: Vec::new(),
         picked: Vec::new(),
+        truth: Some(half_known()),
         plan: InputPlan::default(),
     };
     let reading = ReadOptions::default();
@@ -184,6 +196,13 @@ fn reports_say_what_was_done_with_given_lights() {
     let estimated = run.report(&input, &estimate);
     assert_eq!(estimated.expected_errors.normals, Some(7.5));
     assert!(estimated.expected_errors.lights.is_some());
+    let measured = estimated.true_errors.clone().unwrap();
+    assert_eq!(
+        (measured.file.as_str(), measured.pixels),
+        ("Normal_gt.mat", 128)
+    );
+    assert!((measured.mean - 30.0).abs() < 1e-3 && (measured.median - 30.0).abs() < 1e-3);
+    assert_eq!(measured.shares[..2], [0.0, 0.0]);
     assert!(estimated.settings.refit && estimated.lights_from.contains("refitted"));
     assert_eq!(estimated.weights.light.as_deref(), Some("ab"));
     assert_eq!(estimated.inputs, ["a.png", "b.png", "c.png"]);
@@ -200,5 +219,12 @@ fn reports_say_what_was_done_with_given_lights() {
         .iter()
         .map(|(name, _)| serde_json::from_value((*name).into()).unwrap())
         .collect();
-    assert_eq!(names.len(), 9);
+    assert_eq!(names.len(), 10);
+    let (_, picture) = &files[8];
+    let picture = image::load_from_memory(picture).unwrap().to_luma8();
+    // Four steps a degree; nothing where nothing is known.
+    assert_eq!(
+        [picture.get_pixel(3, 7)[0], picture.get_pixel(3, 8)[0]],
+        [120, 0]
+    );
 }
