@@ -1,5 +1,6 @@
 import { AmbientChoice } from "./ambient.js";
 import { showCaptureHelp } from "./capture_help.js";
+import { CropChoice } from "./crop/choice.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
@@ -51,7 +52,11 @@ const settings = new Settings(form, rigs, ambient, {
   any: () => session.changed("settings"),
 });
 const result = new ResultView(engine);
-const size = new SizeChoice(form, engine, stack, settings);
+const crop = new CropChoice(engine, stack, () => {
+  size.cropped();
+  session.changed("stack");
+});
+const size = new SizeChoice(form, engine, stack, settings, crop);
 const run = new Run(form, engine, stack, settings, size, (done) => {
   const format = settings.options.normalFormat ?? "opengl";
   show({ ...done, files: stack.files, name: stackName, format });
@@ -62,6 +67,7 @@ let outcome: Outcome | undefined;
 function show(shown: Outcome): void {
   intro.hide();
   outcome = shown;
+  run.resume(shown.taken);
   result.show(shown);
   hand.show(shown.estimate);
   session.changed("outcome");
@@ -109,6 +115,7 @@ form.addEventListener("submit", () => samples.cancel());
 /** Takes files in place of all others; a mask and lights that were chosen for those go with them. */
 function replace(files: File[]): void {
   if (stack.files.length > 0) settings.forgetFiles();
+  crop.forget();
   stack.take(files);
 }
 
@@ -127,6 +134,7 @@ const session = new Session({
     name: stackName || nameOf(stack.files),
     photographs: stack.photographs.length,
     files: stack.files,
+    crop: crop.kept,
     settings: settings.kept,
     outcome,
     hand: hand.held,
@@ -138,10 +146,10 @@ const session = new Session({
 function restore(bench: Bench): void {
   take([...bench.files]);
   stackName = bench.name;
+  crop.restore(bench.crop);
   settings.restore(bench.settings);
   if (bench.outcome) {
     show(bench.outcome);
-    run.resume(bench.outcome.times);
     // The photographs may have changed after it.
     result.stackIs(stack.files);
     if (bench.hand) hand.hold(bench.hand);
