@@ -44,7 +44,11 @@ export async function doJob(engine: Engine, job: Job, follow: Follow): Promise<D
     follow.prepare(`${what}: ${done + 1} of ${of}`),
   );
   const { crop } = taken;
-  const mask = crop && job.mask && (await croppedMask(engine, files, job.mask, color, { ...taken, crop }));
+  let mask: File | undefined;
+  if (crop && job.mask) {
+    follow.prepare("Cropping the mask");
+    mask = await croppedMask(engine, files, job.mask, color, { ...taken, crop }, signal);
+  }
   signal.throwIfAborted();
   const options: EstimateOptions = {
     ...job.options,

@@ -1,5 +1,7 @@
 import { AmbientChoice } from "./ambient.js";
+import { areArchives, capturesOf } from "./archives/archives.js";
 import { showCaptureHelp } from "./capture_help.js";
+import type { Capture, Found } from "./captures.js";
 import { CropChoice } from "./crop/choice.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
@@ -10,8 +12,10 @@ import { SizeChoice } from "./large/size.js";
 import { isChanged, LightHand } from "./lights/hand.js";
 import { toCsv } from "./lights/light_text.js";
 import { Rigs } from "./lights/rigs.js";
+import type { Format } from "./maps.js";
 import { MaskSetting } from "./mask/setting.js";
 import { Offline } from "./offline.js";
+import { Queue } from "./queue/queue.js";
 import { type Outcome, ResultView } from "./result.js";
 import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
@@ -58,9 +62,13 @@ const crop = new CropChoice(engine, stack, () => {
 });
 const size = new SizeChoice(form, engine, stack, settings, crop);
 const run = new Run(form, engine, stack, settings, size, (done) => {
-  const format = settings.options.normalFormat ?? "opengl";
-  show({ ...done, files: stack.files, name: stackName, format });
+  show({ ...done, files: stack.files, name: stackName, format: format() });
 });
+
+/** Which way green points in what is kept and shown. */
+function format(): Format {
+  return settings.options.normalFormat ?? "opengl";
+}
 
 /** The result that is shown. */
 let outcome: Outcome | undefined;
@@ -68,6 +76,7 @@ function show(shown: Outcome): void {
   intro.hide();
   outcome = shown;
   run.resume(shown.taken);
+  queue.shows(shown);
   result.show(shown);
   hand.show(shown.estimate);
   session.changed("outcome");
@@ -76,8 +85,12 @@ function show(shown: Outcome): void {
 // What is kept and shown follows this choice at once.
 form.addEventListener("change", ({ target }) => {
   if (!(target instanceof HTMLInputElement) || target.name !== "normal-format") return;
-  result.turnGreen(settings.options.normalFormat ?? "opengl").catch((error) => run.fail(wordsOf(error)));
+  turnGreen();
 });
+
+function turnGreen(): void {
+  result.turnGreen(format()).catch((error) => run.fail(wordsOf(error)));
+}
 
 run.stackPlanned();
 showCaptureHelp();
@@ -127,7 +140,37 @@ function take(files: File[]): void {
   folders.forget();
   replace(files);
 }
-const folders = new FolderChoice(take);
+const queue = new Queue({ engine, settings, size, run, format, show: showOf });
+const folders = new FolderChoice(take, (captures, own) => void queue.start(captures, own));
+
+/** Shows a result of the queue, and puts its stack on the bench. */
+function showOf(shown: Outcome, captures: readonly Capture[], capture: Capture): void {
+  const { files } = stack;
+  const same = files.length === shown.files.length && files.every((file, at) => file === shown.files[at]);
+  if (!same) take([...shown.files]);
+  stackName = shown.name;
+  folders.taken(captures, capture);
+  show(shown);
+  if (format() !== shown.format) turnGreen();
+}
+
+/** Takes what was found; where that is archives, what is found in them. */
+async function takeFound(found: Found): Promise<void> {
+  const [only, another] = found.captures;
+  if (!only || another || !areArchives(only.files)) {
+    folders.found(found);
+    return;
+  }
+  folders.wait("Looking into the archive.");
+  try {
+    const inside = await capturesOf(only.files);
+    if (run.underWay) run.ignore();
+    else folders.found(inside ?? found);
+  } catch (error) {
+    folders.wait("");
+    run.fail(wordsOf(error));
+  }
+}
 
 const session = new Session({
   bench: () => ({
@@ -153,8 +196,7 @@ function restore(bench: Bench): void {
     // The photographs may have changed after it.
     result.stackIs(stack.files);
     if (bench.hand) hand.hold(bench.hand);
-    const format = settings.options.normalFormat ?? "opengl";
-    if (format !== bench.outcome.format) result.turnGreen(format).catch((error) => run.fail(wordsOf(error)));
+    if (format() !== bench.outcome.format) turnGreen();
   } else if (bench.hand && isChanged(bench.hand)) {
     // Their result was too large to be kept: the next one begins with them.
     settings.handLights(new File([toCsv(bench.hand.lights)], "lights.csv", { type: "text/csv" }));
@@ -164,8 +206,11 @@ function restore(bench: Bench): void {
 // Nothing is lost with an empty bench.
 const offline = new Offline(() => stack.files.length === 0 && outcome === undefined && !run.underWay);
 
-connect("pick-files", "files", take);
-connect("pick-folder", "folder", (files) => folders.found(filesOfFolder(files)));
+connect("pick-files", "files", (files) => {
+  if (areArchives(files)) void takeFound({ captures: [{ folder: "", files }], words: "" });
+  else take(files);
+});
+connect("pick-folder", "folder", (files) => void takeFound(filesOfFolder(files)));
 connect("add", "more", (files) => {
   samples.leave();
   stack.take(files, true);
@@ -202,7 +247,7 @@ page.addEventListener("drop", async (event) => {
     return;
   }
   try {
-    folders.found(await filesOfDrop(event.dataTransfer));
+    await takeFound(await filesOfDrop(event.dataTransfer));
   } catch (error) {
     run.fail(wordsOf(error));
   }

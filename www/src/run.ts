@@ -52,6 +52,11 @@ export class Run {
     say(this.#problem, words);
   }
 
+  /** Says what became of several runs. */
+  tell(words: string): void {
+    say(this.#status, words);
+  }
+
   /** The stack has changed: what was said about the last one is out of date. */
   stackChanged(): void {
     this.stackPlanned();
@@ -94,9 +99,18 @@ export class Run {
     return { files, pictures, options, mask: mask ?? own, taken: this.size.taken };
   }
 
+  /** Why no run can begin with the stack and these settings; empty when one can. */
+  get lacking(): string {
+    return this.stack.lacking || this.settings.lacking(this.stack.photographs.length);
+  }
+
   async #run(given?: Given): Promise<void> {
-    if (this.underWay || this.stack.lacking !== "") return;
-    const lacking = given ? "" : this.settings.lacking(this.stack.photographs.length);
+    if (this.underWay) {
+      say(this.#status, "A run is under way: wait for its end, or cancel it first.");
+      return;
+    }
+    if (this.stack.lacking !== "") return;
+    const lacking = given ? "" : this.lacking;
     if (lacking) {
       say(this.#problem, lacking);
       return;
@@ -106,7 +120,7 @@ export class Run {
       const { pictures } = this.stack;
       const job = given ? { ...given, pictures, mask: undefined, taken: this.#taken } : this.job;
       try {
-        done = await this.follow(job, signal);
+        [, done] = await this.follow(async () => job, signal);
         say(this.#status, `Done in ${total(done.estimate).toFixed(1)} s.`);
         // What the lights that were found are worth is known only now.
         sayLines(this.#notices, doubtful(done.estimate.planWords));
@@ -136,9 +150,10 @@ export class Run {
     }
   }
 
-  /** The result of a job whose progress is shown. @param which of several, in words */
-  async follow(job: Job, signal: AbortSignal, which = ""): Promise<Done> {
+  /** A job and its result; the progress is shown. @param which of several, in words */
+  async follow(make: () => Promise<Job>, signal: AbortSignal, which = ""): Promise<[Job, Done]> {
     this.#progress.start(which);
+    const job = await make();
     const done = await doJob(this.engine, job, {
       signal,
       prepare: (words) => this.#progress.prepare(words),
@@ -150,7 +165,7 @@ export class Run {
       },
     });
     this.size.learn(done.estimate);
-    return done;
+    return [job, done];
   }
 
   /** A result is shown that was made like this. */

@@ -16,10 +16,11 @@ export async function croppedMask(
   mask: File,
   color: ColorMode,
   { crop, times }: Taken & { readonly crop: Crop },
+  signal: AbortSignal,
 ): Promise<File> {
   // What is inside is decided on the whole mask, and at the size of the photographs, as without a crop.
   const { inside, width } = await engine.with((normalight) =>
-    normalight.mask(files, { color, mask, ambient: "none", images: ENOUGH }),
+    normalight.mask(files, { color, mask, ambient: "none", images: ENOUGH, signal }),
   );
   const part = new Uint8Array(crop.width * crop.height);
   for (let row = 0; row < crop.height; row++) {

@@ -8,7 +8,7 @@ import type { Settings } from "../settings.js";
 import type { Stack } from "../stack.js";
 import { type About, aboutPhotograph } from "./about.js";
 import { memoryHere, memoryOf, type Shape, Speed } from "./cost.js";
-import { type Shrinking, sideOf, type Taken } from "./taken.js";
+import { AS_THEY_ARE, type Shrinking, sideOf, type Taken } from "./taken.js";
 
 /** Pixels from which on photographs are large. */
 const LARGE = 4e6;
@@ -17,6 +17,12 @@ const LARGE = 4e6;
 const SMALL = 300_000;
 
 const SHRINKINGS: readonly Shrinking[] = [1, 2, 4];
+
+/** What was chosen, to be taken for other photographs. */
+export interface General extends Pick<Taken, "crop" | "frame"> {
+  /** Nothing where nobody has chosen. */
+  readonly times: Shrinking | undefined;
+}
 
 /** What a run on large photographs costs, and at which size they are taken. */
 export class SizeChoice {
@@ -60,16 +66,22 @@ export class SizeChoice {
     this.#tell();
   }
 
-  /** What is to be taken of photographs that are not on the bench: as on it, where they are as large. */
-  async takenOf(photographs: readonly File[]): Promise<Taken> {
-    const [file] = photographs;
-    const about = file && (await this.#ask(file));
-    if (!about) return { times: 1, crop: undefined, frame: undefined };
+  /** What of this goes for other photographs, too. */
+  get general(): General {
     const { crop, frame } = this.crop;
-    const same = frame?.width === about.width && frame.height === about.height;
-    const part = same && !about.fixed ? crop : undefined;
-    const times = this.#asked && !about.fixed ? this.times : fitting(about, part, photographs.length);
-    return { times, crop: part, frame: { width: about.width, height: about.height } };
+    return { crop, frame, times: this.#asked && !this.#box.hidden ? this.times : undefined };
+  }
+
+  /** What is taken of photographs that are not on the bench: the crop only where they are as large. */
+  async takenOf(photographs: readonly File[], { crop, frame, times }: General): Promise<Taken> {
+    const [file] = photographs;
+    const about = file && (await aboutPhotograph(file, this.engine).catch(() => undefined));
+    if (!about) return AS_THEY_ARE;
+    const { width, height, fixed } = about;
+    const part = !fixed && frame?.width === width && frame.height === height ? crop : undefined;
+    const { images = photographs.length } = this.settings.options;
+    const fits = fitting(about, part, Math.min(images, photographs.length));
+    return { times: fixed ? 1 : (times ?? fits), crop: part, frame: { width, height } };
   }
 
   /** There are other files; what they are is not known yet. */
@@ -102,9 +114,9 @@ export class SizeChoice {
     this.#tell();
   }
 
-  /** What a photograph is; nothing when it is small and nobody has cropped it, or nobody can tell. */
+  /** What a photograph is; nothing when it is small, or nobody can tell. */
   async #ask(file: File): Promise<About | undefined> {
-    if (file.size < SMALL && !/\.png$/i.test(file.name) && !this.crop.crop) return undefined;
+    if (file.size < SMALL && !/\.png$/i.test(file.name)) return undefined;
     return await aboutPhotograph(file, this.engine).catch(() => undefined);
   }
 
