@@ -8,7 +8,7 @@ import { Page } from "./support/page.js";
 const SIDE = 2000;
 /** Photographs of four megapixels. @type {TestFile[]} */
 const large = [
-  greyPng("001.png", SIDE, SIDE, 200, "x"),
+  greyPng("001.png", SIDE, SIDE, 255, "squares"),
   greyPng("002.png", SIDE, SIDE, 200, "y"),
   greyPng("003.png", SIDE, SIDE, 200, "both"),
 ];
@@ -52,6 +52,11 @@ test("what large photographs cost is said, and they are taken at a quarter of th
   // Photographs beside the result are those that were used.
   await tab.selectOption("#viewer-map", "residual");
   await tab.waitForSelector("#viewer-spread:has-text('difference in %')");
+  // Black and white pixels in turns: the mean of their light is 188 of sRGB, that of their codes 128.
+  await tab.selectOption("#viewer-map", "photograph-0");
+  await tab.waitForSelector(
+    "#viewer-spread:text-matches('^red 188 to 188, .*green 188 to 188, .*blue 188 to 188, ')",
+  );
 });
 
 test("what a part of them costs is said, and the part is taken at half its size, of a small mask too", async () => {
