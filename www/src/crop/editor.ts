@@ -64,6 +64,8 @@ class CropEditor {
     title.id = "crop-title";
     this.#dialog.setAttribute("aria-labelledby", title.id);
     this.#words.setAttribute("role", "status");
+    // Width before height, also where a page begins at the right.
+    this.#words.dir = "auto";
     const done = button("done", "Done", "Takes this part of all photographs", () => this.#close(this.#crop));
     done.classList.add("accent");
     const buttons = row(
