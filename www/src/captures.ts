@@ -24,13 +24,24 @@ export const FEWEST = 3;
 const OTHER =
   /(^|\/)(\.|thumbs\.db$|desktop\.ini$)|\.(txt|csv|tsv|json|lp|npy|mat|md|xml|xmp|html?|svg|log|obj|ply|glb)$/i;
 
-const mayBePhotograph = ({ name }: File) => !OTHER.test(name);
+/** Whether a file is surely no photograph. */
+export function isOther({ name }: File): boolean {
+  return OTHER.test(name);
+}
+
+const mayBePhotograph = (file: File) => !isOther(file);
 
 /**
  * The stacks among dropped files: those in the dropped folder itself, as on the command line; where there are too few,
  * those in the folders below it.
+ *
+ * @param where all of them lie, in words
  */
-export function capturesAmong(placed: readonly Placed[], tops: readonly string[]): Found {
+export function capturesAmong(
+  placed: readonly Placed[],
+  tops: readonly string[],
+  where = named(tops).replace(/^The/, "the"),
+): Found {
   const folders = byFolder(placed);
   const loose = folders.get("");
   const direct = tops.flatMap((top) => folders.get(top) ?? []);
@@ -40,7 +51,7 @@ export function capturesAmong(placed: readonly Placed[], tops: readonly string[]
   const [first] = captures;
   if (first === undefined) return fewIn(folders, tops);
   if (captures.length > 1) {
-    const words = `${captures.length} folders with photographs lie in ${named(tops).replace(/^The/, "the")}. Taken: ${first.folder}.`;
+    const words = `${captures.length} folders with photographs lie in ${where}. Taken: ${first.folder}.`;
     return { captures, words };
   }
   const nested = !tops.includes(first.folder);

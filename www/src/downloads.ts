@@ -113,10 +113,7 @@ export class Downloads {
     try {
       const file = await made();
       if (turn !== this.#turn) return;
-      const link = linkOf(file);
-      link.click();
-      // Browsers fetch what a link leads to some time after the click.
-      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+      press(linkOf(file));
     } catch (error) {
       say(problem, wordsOf(error));
     }
@@ -138,10 +135,25 @@ export function fileNameOf(words: string): string {
   return plain === "" ? "normalight" : plain.slice(0, 80);
 }
 
+/** Hands a file to the browser to be stored. */
+export function store(name: string, content: Blob): void {
+  press(linkTo(name, content));
+}
+
+function press(link: HTMLAnchorElement): void {
+  link.click();
+  // Browsers fetch what a link leads to some time after the click.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
 function linkOf({ name, bytes }: Kept): HTMLAnchorElement {
-  const link = make("a");
   const type = TYPES[name.split(".").pop() ?? ""] ?? "application/octet-stream";
-  link.href = URL.createObjectURL(new Blob([bytes], { type }));
+  return linkTo(name, new Blob([bytes], { type }));
+}
+
+function linkTo(name: string, content: Blob): HTMLAnchorElement {
+  const link = make("a");
+  link.href = URL.createObjectURL(content);
   link.download = name;
   return link;
 }

@@ -1,14 +1,35 @@
 import type { Capture, Found } from "./captures.js";
 import { byId, make, say } from "./dom.js";
 
-/** Takes the stack that was found in a folder, and offers the others that lie beside it. */
+/** Takes the stack that was found in a folder, and offers the others that lie beside it, or to estimate all. */
 export class FolderChoice {
   readonly #take: (files: File[]) => void;
   readonly #words = byId("folder-words");
   readonly #others = byId("folder-others");
+  readonly #all = byId("folder-all");
+  readonly #estimateAll = byId<HTMLButtonElement>("estimate-all");
+  #captures: readonly Capture[] = [];
+  /** The one that is on the bench. */
+  #taken: Capture | undefined;
 
-  constructor(take: (files: File[]) => void) {
+  /** @param estimateAll gets all captures, and the one that is on the bench */
+  constructor(
+    take: (files: File[]) => void,
+    estimateAll: (captures: readonly Capture[], taken: Capture | undefined) => void,
+  ) {
     this.#take = take;
+    this.#estimateAll.addEventListener("click", () => estimateAll(this.#captures, this.#taken));
+  }
+
+  /** One of several captures was put on the bench. */
+  taken(captures: readonly Capture[], capture: Capture): void {
+    say(this.#words, `Taken: ${capture.folder}.`);
+    this.#offer(captures, capture);
+  }
+
+  /** Says what is done before it is known what was found. */
+  wait(words: string): void {
+    say(this.#words, words);
   }
 
   found({ captures, words }: Found): void {
@@ -26,7 +47,10 @@ export class FolderChoice {
   }
 
   #offer(captures: readonly Capture[], taken: Capture | undefined): void {
+    [this.#captures, this.#taken] = [captures, taken];
     this.#others.hidden = captures.length < 2;
+    this.#all.hidden = captures.length < 2;
+    this.#estimateAll.textContent = `Estimate all ${captures.length}`;
     const buttons = (captures.length < 2 ? [] : captures).map((capture) => {
       const { folder, files } = capture;
       const button = make("button", "quiet", `${folder} (${files.length} files)`);
@@ -34,8 +58,7 @@ export class FolderChoice {
       button.setAttribute("aria-pressed", String(capture === taken));
       button.addEventListener("click", () => {
         this.#take([...files]);
-        say(this.#words, `Taken: ${folder}.`);
-        this.#offer(captures, capture);
+        this.taken(captures, capture);
         this.#others.querySelector<HTMLElement>('[aria-pressed="true"]')?.focus();
       });
       return button;

@@ -1,5 +1,8 @@
 import { AmbientChoice } from "./ambient.js";
+import { areArchives, capturesOf } from "./archives/archives.js";
 import { showCaptureHelp } from "./capture_help.js";
+import type { Capture, Found } from "./captures.js";
+import { CropChoice } from "./crop/choice.js";
 import { byId, wordsOf } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
@@ -9,8 +12,10 @@ import { SizeChoice } from "./large/size.js";
 import { isChanged, LightHand } from "./lights/hand.js";
 import { toCsv } from "./lights/light_text.js";
 import { Rigs } from "./lights/rigs.js";
+import type { Format } from "./maps.js";
 import { MaskSetting } from "./mask/setting.js";
 import { Offline } from "./offline.js";
+import { Queue } from "./queue/queue.js";
 import { type Outcome, ResultView } from "./result.js";
 import { Run } from "./run.js";
 import { SampleChoice } from "./sample_choice.js";
@@ -51,17 +56,27 @@ const settings = new Settings(form, rigs, ambient, {
   any: () => session.changed("settings"),
 });
 const result = new ResultView(engine);
-const size = new SizeChoice(form, engine, stack, settings);
-const run = new Run(form, engine, stack, settings, size, (done) => {
-  const format = settings.options.normalFormat ?? "opengl";
-  show({ ...done, files: stack.files, name: stackName, format });
+const crop = new CropChoice(engine, stack, () => {
+  size.cropped();
+  session.changed("stack");
 });
+const size = new SizeChoice(form, engine, stack, settings, crop);
+const run = new Run(form, engine, stack, settings, size, (done) => {
+  show({ ...done, files: stack.files, name: stackName, format: format() });
+});
+
+/** Which way green points in what is kept and shown. */
+function format(): Format {
+  return settings.options.normalFormat ?? "opengl";
+}
 
 /** The result that is shown. */
 let outcome: Outcome | undefined;
 function show(shown: Outcome): void {
   intro.hide();
   outcome = shown;
+  run.resume(shown.taken);
+  queue.shows(shown);
   result.show(shown);
   hand.show(shown.estimate);
   session.changed("outcome");
@@ -70,8 +85,12 @@ function show(shown: Outcome): void {
 // What is kept and shown follows this choice at once.
 form.addEventListener("change", ({ target }) => {
   if (!(target instanceof HTMLInputElement) || target.name !== "normal-format") return;
-  result.turnGreen(settings.options.normalFormat ?? "opengl").catch((error) => run.fail(wordsOf(error)));
+  turnGreen();
 });
+
+function turnGreen(): void {
+  result.turnGreen(format()).catch((error) => run.fail(wordsOf(error)));
+}
 
 run.stackPlanned();
 showCaptureHelp();
@@ -109,6 +128,7 @@ form.addEventListener("submit", () => samples.cancel());
 /** Takes files in place of all others; a mask and lights that were chosen for those go with them. */
 function replace(files: File[]): void {
   if (stack.files.length > 0) settings.forgetFiles();
+  crop.forget();
   stack.take(files);
 }
 
@@ -120,13 +140,44 @@ function take(files: File[]): void {
   folders.forget();
   replace(files);
 }
-const folders = new FolderChoice(take);
+const queue = new Queue({ engine, settings, size, run, format, show: showOf });
+const folders = new FolderChoice(take, (captures, own) => void queue.start(captures, own));
+
+/** Shows a result of the queue, and puts its stack on the bench. */
+function showOf(shown: Outcome, captures: readonly Capture[], capture: Capture): void {
+  const { files } = stack;
+  const same = files.length === shown.files.length && files.every((file, at) => file === shown.files[at]);
+  if (!same) take([...shown.files]);
+  stackName = shown.name;
+  folders.taken(captures, capture);
+  show(shown);
+  if (format() !== shown.format) turnGreen();
+}
+
+/** Takes what was found; where that is archives, what is found in them. */
+async function takeFound(found: Found): Promise<void> {
+  const [only, another] = found.captures;
+  if (!only || another || !areArchives(only.files)) {
+    folders.found(found);
+    return;
+  }
+  folders.wait("Looking into the archive.");
+  try {
+    const inside = await capturesOf(only.files);
+    if (run.underWay) run.ignore();
+    else folders.found(inside ?? found);
+  } catch (error) {
+    folders.wait("");
+    run.fail(wordsOf(error));
+  }
+}
 
 const session = new Session({
   bench: () => ({
     name: stackName || nameOf(stack.files),
     photographs: stack.photographs.length,
     files: stack.files,
+    crop: crop.kept,
     settings: settings.kept,
     outcome,
     hand: hand.held,
@@ -138,15 +189,14 @@ const session = new Session({
 function restore(bench: Bench): void {
   take([...bench.files]);
   stackName = bench.name;
+  crop.restore(bench.crop);
   settings.restore(bench.settings);
   if (bench.outcome) {
     show(bench.outcome);
-    run.resume(bench.outcome.times);
     // The photographs may have changed after it.
     result.stackIs(stack.files);
     if (bench.hand) hand.hold(bench.hand);
-    const format = settings.options.normalFormat ?? "opengl";
-    if (format !== bench.outcome.format) result.turnGreen(format).catch((error) => run.fail(wordsOf(error)));
+    if (format() !== bench.outcome.format) turnGreen();
   } else if (bench.hand && isChanged(bench.hand)) {
     // Their result was too large to be kept: the next one begins with them.
     settings.handLights(new File([toCsv(bench.hand.lights)], "lights.csv", { type: "text/csv" }));
@@ -156,8 +206,11 @@ function restore(bench: Bench): void {
 // Nothing is lost with an empty bench.
 const offline = new Offline(() => stack.files.length === 0 && outcome === undefined && !run.underWay);
 
-connect("pick-files", "files", take);
-connect("pick-folder", "folder", (files) => folders.found(filesOfFolder(files)));
+connect("pick-files", "files", (files) => {
+  if (areArchives(files)) void takeFound({ captures: [{ folder: "", files }], words: "" });
+  else take(files);
+});
+connect("pick-folder", "folder", (files) => void takeFound(filesOfFolder(files)));
 connect("add", "more", (files) => {
   samples.leave();
   stack.take(files, true);
@@ -194,7 +247,7 @@ page.addEventListener("drop", async (event) => {
     return;
   }
   try {
-    folders.found(await filesOfDrop(event.dataTransfer));
+    await takeFound(await filesOfDrop(event.dataTransfer));
   } catch (error) {
     run.fail(wordsOf(error));
   }

@@ -13,15 +13,19 @@ export class ProgressView {
   #current: Stage | undefined;
   #began = 0;
   #told = 0;
+  /** Which of several runs it is, in words. */
+  #which = "";
 
   constructor() {
     for (const stage of STAGES) this.#items.set(stage, make("li", "", stage));
     byId("stages").append(...this.#items.values());
   }
 
-  start(): void {
+  /** @param which of several runs begins, in words */
+  start(which = ""): void {
+    this.#which = which;
     this.#current = undefined;
-    this.#words.textContent = "Waiting for the estimator";
+    this.prepare("Waiting for the estimator");
     this.#left.textContent = "";
     this.#began = 0;
     this.#bar.removeAttribute("value");
@@ -31,7 +35,7 @@ export class ProgressView {
 
   /** Says what is done before the run. */
   prepare(words: string): void {
-    this.#words.textContent = words;
+    this.#words.textContent = this.#which ? `${this.#which}: ${words}` : words;
   }
 
   show({ stage, fraction, stageFraction }: Progress): void {
@@ -41,7 +45,7 @@ export class ProgressView {
     if (stage === this.#current) return;
     this.#current = stage;
     // Read aloud, so only when there is something new to say.
-    this.#words.textContent = `Estimating: ${stage}`;
+    this.prepare(`Estimating: ${stage}`);
     let state = "done";
     for (const [name, item] of this.#items) {
       if (name === stage) state = "now";

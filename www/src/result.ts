@@ -3,9 +3,9 @@ import { Derive } from "./derive.js";
 import { byId, make, say, sayLines } from "./dom.js";
 import { Downloads, fileNameOf, type Kept } from "./downloads.js";
 import type { Engine } from "./engine.js";
+import { type Done, total } from "./job.js";
 import { type Format, normalColours } from "./maps.js";
 import { Pictures } from "./pictures.js";
-import { type Done, total } from "./run.js";
 import { sameFiles } from "./stack_name.js";
 
 /** What a run was made of and gave. */

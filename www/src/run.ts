@@ -1,8 +1,9 @@
-import type { Estimate, EstimateOptions, InputPlan, Progress } from "normalight";
+import type { EstimateOptions } from "normalight";
 import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
-import { type Shrinking, shrunk, sizeWords } from "./large/shrink.js";
+import { type Done, doJob, type Job, total } from "./job.js";
 import type { SizeChoice } from "./large/size.js";
+import { AS_THEY_ARE, type Taken } from "./large/taken.js";
 import { ProgressView } from "./progress.js";
 import type { Settings } from "./settings.js";
 import type { Stack } from "./stack.js";
@@ -11,17 +12,6 @@ import type { Stack } from "./stack.js";
 interface Given {
   readonly files: readonly File[];
   readonly options: EstimateOptions;
-}
-
-/** What a run gave. */
-export interface Done {
-  readonly estimate: Estimate;
-  /** The files as the estimator got them: photographs may have been made smaller. */
-  readonly used: readonly File[];
-  /** At which size the photographs were taken; empty for their own. */
-  readonly size: string;
-  /** How many times smaller that made their sides. */
-  readonly times: Shrinking;
 }
 
 /** Starts, follows and cancels runs. */
@@ -34,8 +24,8 @@ export class Run {
   readonly #why = byId("start-why");
   readonly #progress = new ProgressView();
   #running: AbortController | undefined;
-  /** At which size the result that is shown was made: what is made from it again must fit to its mask. */
-  #times: Shrinking = 1;
+  /** How the result that is shown was made: what is made from it again must fit to its mask. */
+  #taken: Taken = AS_THEY_ARE;
 
   constructor(
     private readonly form: HTMLFormElement,
@@ -60,6 +50,11 @@ export class Run {
   /** Says what went wrong. */
   fail(words: string): void {
     say(this.#problem, words);
+  }
+
+  /** Says what became of several runs. */
+  tell(words: string): void {
+    say(this.#status, words);
   }
 
   /** The stack has changed: what was said about the last one is out of date. */
@@ -95,61 +90,87 @@ export class Run {
     await this.#run({ files, options });
   }
 
+  /** What a run on the stack is made of now. */
+  get job(): Job {
+    const { files, pictures, photographs } = this.stack;
+    const options = this.settings.optionsFor(photographs);
+    const mask = options.mask instanceof File ? options.mask : undefined;
+    const own = options.mask === "auto" ? this.stack.mask : undefined;
+    return { files, pictures, options, mask: mask ?? own, taken: this.size.taken };
+  }
+
+  /** Why no run can begin with the stack and these settings; empty when one can. */
+  get lacking(): string {
+    return this.stack.lacking || this.settings.lacking(this.stack.photographs.length);
+  }
+
   async #run(given?: Given): Promise<void> {
-    if (this.#running || this.stack.lacking !== "") return;
-    const lacking = given ? "" : this.settings.lacking(this.stack.photographs.length);
+    if (this.underWay) {
+      say(this.#status, "A run is under way: wait for its end, or cancel it first.");
+      return;
+    }
+    if (this.stack.lacking !== "") return;
+    const lacking = given ? "" : this.lacking;
     if (lacking) {
       say(this.#problem, lacking);
       return;
     }
+    let done: Done | undefined;
+    await this.during(async (signal) => {
+      const { pictures } = this.stack;
+      const job = given ? { ...given, pictures, mask: undefined, taken: this.#taken } : this.job;
+      try {
+        [, done] = await this.follow(async () => job, signal);
+        say(this.#status, `Done in ${total(done.estimate).toFixed(1)} s.`);
+        // What the lights that were found are worth is known only now.
+        sayLines(this.#notices, doubtful(done.estimate.planWords));
+      } catch (error) {
+        if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
+        else say(this.#problem, wordsOf(error));
+      }
+    });
+    // Only now: the page has its final shape, and the focus goes to the result.
+    if (done) this.finished(done);
+  }
+
+  /** Does something meanwhile nothing but cancelling is possible; not when something is under way already. */
+  async during(work: (signal: AbortSignal) => Promise<void>): Promise<void> {
+    if (this.underWay) return;
     const running = new AbortController();
     this.#running = running;
     this.#show(true);
     say(this.#problem, "");
     say(this.#status, "");
     sayLines(this.#notices, []);
-    const done = await this.#estimate(running.signal, given);
-    this.#running = undefined;
-    this.#show(false);
-    // Only now: the page has its final shape, and the focus goes to the result.
-    if (done) this.finished(done);
-  }
-
-  /** The result; nothing when there is none, which the page then says. */
-  async #estimate(signal: AbortSignal, given?: Given): Promise<Done | undefined> {
-    const files = given?.files ?? this.stack.files;
-    const times = given ? this.#times : this.size.times;
-    const options = {
-      ...(given?.options ?? this.settings.optionsFor(this.stack.photographs)),
-      signal,
-      onProgress: (progress: Progress) => this.#progress.show(progress),
-      onPlan: (plan: InputPlan, words: readonly string[]) => {
-        sayLines(this.#notices, doubtful(words));
-        this.stack.mark(plan.notices);
-      },
-    };
     try {
-      const used = await shrunk(files, this.stack.pictures, times, signal, (done, of) =>
-        this.#progress.prepare(`Making photographs smaller: ${done + 1} of ${of}`),
-      );
-      const estimate = await this.engine.with((normalight) => normalight.estimate(used, options));
-      say(this.#status, `Done in ${total(estimate).toFixed(1)} s.`);
-      // What the lights that were found are worth is known only now.
-      sayLines(this.#notices, doubtful(estimate.planWords));
-      this.#times = times;
-      this.size.learn(estimate);
-      const size = sizeWords(times, this.size.whole);
-      return { estimate: size ? sized(estimate, size) : estimate, used, size, times };
-    } catch (error) {
-      if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
-      else say(this.#problem, wordsOf(error));
-      return undefined;
+      await work(running.signal);
+    } finally {
+      this.#running = undefined;
+      this.#show(false);
     }
   }
 
-  /** The result that is shown is one of another visit, made at this size. */
-  resume(times: Shrinking): void {
-    this.#times = times;
+  /** A job and its result; the progress is shown. @param which of several, in words */
+  async follow(make: () => Promise<Job>, signal: AbortSignal, which = ""): Promise<[Job, Done]> {
+    this.#progress.start(which);
+    const job = await make();
+    const done = await doJob(this.engine, job, {
+      signal,
+      prepare: (words) => this.#progress.prepare(words),
+      progress: (progress) => this.#progress.show(progress),
+      plan: (plan, words) => {
+        if (which) return;
+        sayLines(this.#notices, doubtful(words));
+        this.stack.mark(plan.notices);
+      },
+    });
+    this.size.learn(done.estimate);
+    return [job, done];
+  }
+
+  /** A result is shown that was made like this. */
+  resume(taken: Taken): void {
+    this.#taken = taken;
   }
 
   /** While a run is under way nothing but cancelling is possible. */
@@ -166,24 +187,4 @@ export class Run {
       this.#start.focus({ preventScroll: true });
     }
   }
-}
-
-/** An estimate that says at which size photographs were taken, in words and in its report. */
-function sized(estimate: Estimate, size: string): Estimate {
-  const words = `photographs: taken ${size}, as PNG of 8 bits that the page made of them`;
-  const text = new TextEncoder();
-  const files = estimate.files.map((file) => {
-    if (file.name !== "report.json") return file;
-    const report = JSON.parse(new TextDecoder().decode(file.bytes));
-    return {
-      ...file,
-      bytes: text.encode(`${JSON.stringify({ ...report, photographs_taken: size }, null, 2)}\n`),
-    };
-  });
-  return { ...estimate, files, planWords: [words, ...estimate.planWords] };
-}
-
-/** Seconds of all stages. */
-export function total({ seconds }: Pick<Estimate, "seconds">): number {
-  return seconds.reduce((sum, stage) => sum + stage.seconds, 0);
 }

@@ -237,6 +237,13 @@ export class Settings {
     return others;
   }
 
+  /** The settings for photographs that are not on the bench: a mask and lights of files belong to those that are. */
+  optionsOfOthers(photographs: readonly File[]): EstimateOptions {
+    const { lights: _lights, lightAxes: _axes, mask, ...others } = this.options;
+    const lights = this.#rig.fileFor(photographs);
+    return { ...others, mask: mask === "none" ? "none" : "auto", ...(lights ? { lights } : {}) };
+  }
+
   get options(): EstimateOptions {
     const lights = this.#lights.file;
     const images = chosen(this.#form, "images");

@@ -8,7 +8,7 @@ import { Page } from "./support/page.js";
 const SIDE = 2000;
 /** Photographs of four megapixels. @type {TestFile[]} */
 const large = [
-  greyPng("001.png", SIDE, SIDE, 200, "x"),
+  greyPng("001.png", SIDE, SIDE, 255, "squares"),
   greyPng("002.png", SIDE, SIDE, 200, "y"),
   greyPng("003.png", SIDE, SIDE, 200, "both"),
 ];
@@ -52,6 +52,30 @@ test("what large photographs cost is said, and they are taken at a quarter of th
   // Photographs beside the result are those that were used.
   await tab.selectOption("#viewer-map", "residual");
   await tab.waitForSelector("#viewer-spread:has-text('difference in %')");
+  // Black and white pixels in turns: the mean of their light is 188 of sRGB, that of their codes 128.
+  await tab.selectOption("#viewer-map", "photograph-0");
+  await tab.waitForSelector(
+    "#viewer-spread:text-matches('^red 188 to 188, .*green 188 to 188, .*blue 188 to 188, ')",
+  );
+});
+
+test("what a part of them costs is said, and the part is taken at half its size, of a small mask too", async () => {
+  await tab.click("#crop");
+  for (const [side, pixels] of Object.entries({ left: 880, top: 900, width: 301, height: 200 }))
+    await tab.fill(`[name="crop-${side}"]`, String(pixels));
+  await tab.click('.crop-editor [data-do="done"]');
+  await tab.click('label:has(input[name="size"][value="2"])');
+  await tab.waitForSelector(
+    '#large-words:has-text("3 photographs of 0.0 megapixels after cropping: about 0.4 GB")',
+  );
+  assert.equal(await page.estimate(), "");
+  const words =
+    "cropped to 301 × 200 pixels, 880 from the left and 900 from the top, at half their size, from 2000 × 2000 pixels";
+  const facts = (await tab.textContent("#facts")) ?? "";
+  assert.ok(facts.includes(`3 of 151 × 100 pixels, ${words}`), facts);
+  // The square of 47 pixels in the small mask is 188 pixels wide, and 94 at half the size.
+  const [, pixels = ""] = /mask\.png, ([\d,]+) pixels/.exec(facts) ?? [];
+  assert.ok(Math.abs(Number(pixels.replace(",", "")) - 94 * 94) < 250, facts);
 });
 
 test("photographs for which there is no memory are made smaller unasked, and small ones are not asked about", async () => {

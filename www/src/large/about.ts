@@ -10,14 +10,11 @@ export interface About {
   readonly fixed: string;
 }
 
-/** Smaller files hold no large photographs; they are not decoded to find out. */
-const SMALL = 300_000;
-
 /** Longer side of photographs that only the estimator decodes: as large as they are. */
 const WHOLE = 65_535;
 
-/** What a photograph is; nothing when it is small, or nobody can tell. */
-export async function aboutPhotograph(file: File, engine: Engine): Promise<About | undefined> {
+/** What a photograph is. */
+export async function aboutPhotograph(file: File, engine: Engine): Promise<About> {
   const head = new DataView(await file.slice(0, 32).arrayBuffer());
   const isPng = head.byteLength === 32 && head.getUint32(0) === 0x89504e47;
   if (isPng) {
@@ -26,7 +23,6 @@ export async function aboutPhotograph(file: File, engine: Engine): Promise<About
     const channels = head.getUint8(25) % 4 === 0 ? 1 : 3;
     return { width: head.getUint32(16), height: head.getUint32(20), channels, bytes: deep ? 2 : 1, fixed };
   }
-  if (file.size < SMALL) return undefined;
   try {
     const bitmap = await createImageBitmap(file);
     const { width, height } = bitmap;

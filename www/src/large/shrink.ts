@@ -1,48 +1,45 @@
-/** How many times smaller the sides of photographs become. */
-export type Shrinking = 1 | 2 | 4;
+import type { Taken } from "./taken.js";
 
-/** At which size photographs were taken, in words; none for the full one. @param whole their size before */
-export function sizeWords(times: Shrinking, whole: string): string {
-  return times === 1 ? "" : `at ${times === 2 ? "half" : "a quarter of"} their size, from ${whole} pixels`;
-}
-
-/** To the worker: a picture and how many times smaller its sides become. */
-export interface ToShrink {
+/** To the worker: a picture, and what of it is taken. */
+export interface ToTake {
   readonly file: File;
-  readonly times: Shrinking;
+  readonly taken: Taken;
+  /** Whether its codes are in proportion to light. */
+  readonly linear: boolean;
 }
 
 /** From the worker: a PNG, or what is wrong. */
-export type Shrunk = { readonly png: Blob } | { readonly problem: string };
+export type TakenPicture = { readonly png: Blob } | { readonly problem: string };
 
 /**
- * Files of which those that are `chosen` are brought to a smaller size, as PNG of 8 bits sRGB.
+ * Files of which those that are `chosen` are cropped and brought to a smaller size, as PNG of 8 bits sRGB.
  *
  * @param told hears of every one that is done
  */
 export async function shrunk(
   files: readonly File[],
   chosen: ReadonlySet<File>,
-  times: Shrinking,
+  taken: Taken,
+  linear: boolean,
   signal: AbortSignal,
   told: (done: number, of: number) => void,
 ): Promise<File[]> {
-  if (times === 1) return [...files];
+  if (taken.times === 1 && !taken.crop) return [...files];
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
-  const taken: File[] = [];
+  const used: File[] = [];
   let done = 0;
   try {
     for (const file of files) {
       if (!chosen.has(file)) {
-        taken.push(file);
+        used.push(file);
         continue;
       }
       told(done, chosen.size);
-      const png = await ask(worker, { file, times }, signal);
-      taken.push(new File([png], asPng(file.name), { type: "image/png", lastModified: file.lastModified }));
+      const png = await ask(worker, { file, taken, linear }, signal);
+      used.push(new File([png], asPng(file.name), { type: "image/png", lastModified: file.lastModified }));
       done += 1;
     }
-    return taken;
+    return used;
   } finally {
     worker.terminate();
   }
@@ -58,13 +55,14 @@ export function withoutExtension(name: string): string {
   return name.replace(/\.[^./]*$/, "");
 }
 
-function ask(worker: Worker, request: ToShrink, signal: AbortSignal): Promise<Blob> {
+function ask(worker: Worker, request: ToTake, signal: AbortSignal): Promise<Blob> {
   return new Promise((resolve, reject) => {
+    const what = request.taken.crop ? "cropped" : "made smaller";
     const cannot = (reason: string) =>
-      reject(new Error(`${request.file.name}: cannot be made smaller: ${reason}`));
+      reject(new Error(`${request.file.name}: cannot be ${what}: ${reason}`));
     signal.throwIfAborted();
     signal.addEventListener("abort", () => reject(signal.reason), { once: true });
-    worker.onmessage = ({ data }: MessageEvent<Shrunk>) =>
+    worker.onmessage = ({ data }: MessageEvent<TakenPicture>) =>
       "png" in data ? resolve(data.png) : cannot(data.problem);
     worker.onerror = (event) => {
       event.preventDefault();

@@ -1,17 +1,28 @@
 import type { Estimate } from "normalight";
+import type { CropChoice } from "../crop/choice.js";
+import type { Crop } from "../crop/rectangle.js";
 import { byId, chosen, say } from "../dom.js";
 import type { Engine } from "../engine.js";
-import { total } from "../run.js";
+import { total } from "../job.js";
 import type { Settings } from "../settings.js";
 import type { Stack } from "../stack.js";
 import { type About, aboutPhotograph } from "./about.js";
 import { memoryHere, memoryOf, type Shape, Speed } from "./cost.js";
-import type { Shrinking } from "./shrink.js";
+import { AS_THEY_ARE, type Shrinking, sideOf, type Taken } from "./taken.js";
 
 /** Pixels from which on photographs are large. */
 const LARGE = 4e6;
 
+/** Smaller files, unless they are PNG, hold no large photographs; they are not decoded to find out. */
+const SMALL = 300_000;
+
 const SHRINKINGS: readonly Shrinking[] = [1, 2, 4];
+
+/** What was chosen, to be taken for other photographs. */
+export interface General extends Pick<Taken, "crop" | "frame"> {
+  /** Nothing where nobody has chosen. */
+  readonly times: Shrinking | undefined;
+}
 
 /** What a run on large photographs costs, and at which size they are taken. */
 export class SizeChoice {
@@ -22,13 +33,19 @@ export class SizeChoice {
   /** The photograph that is known. */
   #file: File | undefined;
   #about: About | undefined;
+  /** Whether somebody has chosen the size. */
+  #asked = false;
 
   constructor(
     private readonly form: HTMLFormElement,
     private readonly engine: Engine,
     private readonly stack: Stack,
     private readonly settings: Settings,
+    private readonly crop: CropChoice,
   ) {
+    this.#box.addEventListener("change", () => {
+      this.#asked = true;
+    });
     form.addEventListener("change", () => this.#tell());
   }
 
@@ -37,9 +54,34 @@ export class SizeChoice {
     return this.#box.hidden ? 1 : (Number(chosen(this.form, "size")) as Shrinking);
   }
 
-  /** Its size before, in words. */
-  get whole(): string {
-    return this.#about ? `${this.#about.width} × ${this.#about.height}` : "";
+  /** What is taken of the photographs on the bench. */
+  get taken(): Taken {
+    const { crop, frame = this.#about } = this.crop;
+    return { times: this.times, crop, frame: frame && { width: frame.width, height: frame.height } };
+  }
+
+  /** Another part of the photographs is taken. */
+  cropped(): void {
+    if (!this.#asked) this.#choose();
+    this.#tell();
+  }
+
+  /** What of this goes for other photographs, too. */
+  get general(): General {
+    const { crop, frame } = this.crop;
+    return { crop, frame, times: this.#asked && !this.#box.hidden ? this.times : undefined };
+  }
+
+  /** What is taken of photographs that are not on the bench: the crop only where they are as large. */
+  async takenOf(photographs: readonly File[], { crop, frame, times }: General): Promise<Taken> {
+    const [file] = photographs;
+    const about = file && (await aboutPhotograph(file, this.engine).catch(() => undefined));
+    if (!about) return AS_THEY_ARE;
+    const { width, height, fixed } = about;
+    const part = !fixed && frame?.width === width && frame.height === height ? crop : undefined;
+    const { images = photographs.length } = this.settings.options;
+    const fits = fitting(about, part, Math.min(images, photographs.length));
+    return { times: fixed ? 1 : (times ?? fits), crop: part, frame: { width, height } };
   }
 
   /** There are other files; what they are is not known yet. */
@@ -56,8 +98,9 @@ export class SizeChoice {
     }
     this.#file = file;
     this.#about = undefined;
+    this.#asked = false;
     this.#tell();
-    const about = file && (await aboutPhotograph(file, this.engine).catch(() => undefined));
+    const about = file && (await this.#ask(file));
     if (file !== this.#file) return;
     this.#about = about;
     this.#choose();
@@ -71,12 +114,17 @@ export class SizeChoice {
     this.#tell();
   }
 
+  /** What a photograph is; nothing when it is small, or nobody can tell. */
+  async #ask(file: File): Promise<About | undefined> {
+    if (file.size < SMALL && !/\.png$/i.test(file.name)) return undefined;
+    return await aboutPhotograph(file, this.engine).catch(() => undefined);
+  }
+
   /** The largest size for which there is memory. */
   #choose(): void {
     const about = this.#about;
     if (!about) return;
-    const fits = SHRINKINGS.find((times) => memoryOf(this.#shape(about, times)) <= memoryHere());
-    this.#radio(about.fixed ? 1 : (fits ?? 4)).checked = true;
+    this.#radio(fitting(about, this.crop.crop, this.#count)).checked = true;
     for (const times of [2, 4] as const) this.#radio(times).disabled = about.fixed !== "";
   }
 
@@ -98,11 +146,14 @@ export class SizeChoice {
     return radio;
   }
 
-  #shape({ width, height, channels, bytes }: About, times: Shrinking): Shape {
+  /** How many photographs a run takes. */
+  get #count(): number {
     const { images = Number.POSITIVE_INFINITY } = this.settings.options;
-    const photographs = Math.min(this.stack.photographs.length, images);
-    const [wide, high] = [Math.round(width / times), Math.round(height / times)];
-    return { width: wide, height: high, photographs, channels, bytes: times === 1 ? bytes : 1 };
+    return Math.min(this.stack.photographs.length, images);
+  }
+
+  #shape(about: About, times: Shrinking): Shape {
+    return shapeOf(about, this.crop.crop, this.#count, times);
   }
 
   #tell(): void {
@@ -114,6 +165,7 @@ export class SizeChoice {
     if (!large) return;
     say(this.#why, this.#reason(about));
     const shape = this.#shape(about, this.times);
+    const part = this.crop.crop ? " after cropping" : "";
     const size = ((shape.width * shape.height) / 1e6).toFixed(1);
     const quality = this.settings.options.quality ?? "default";
     const seconds = this.#speed.secondsOf(this.engine.kind, shape, quality);
@@ -121,8 +173,22 @@ export class SizeChoice {
       seconds === undefined
         ? "how long it takes here is known after the first run"
         : `${timeWords(seconds)}${this.#speed.knows(this.engine.kind) ? ", as fast as the last run was" : ", if this processor is like ours and the object fills half of the frame"}`;
-    this.#words.textContent = `${shape.photographs} photographs of ${size} megapixels: about ${memoryWords(memoryOf(shape))} of memory; ${time}.`;
+    this.#words.textContent = `${shape.photographs} photographs of ${size} megapixels${part}: about ${memoryWords(memoryOf(shape))} of memory; ${time}.`;
   }
+}
+
+function shapeOf(about: About, crop: Crop | undefined, photographs: number, times: Shrinking): Shape {
+  const { width, height } = crop ?? about;
+  const bytes = times === 1 && !crop ? about.bytes : 1;
+  const { channels } = about;
+  return { width: sideOf(width, times), height: sideOf(height, times), photographs, channels, bytes };
+}
+
+/** The largest size for which there is memory. */
+function fitting(about: About, crop: Crop | undefined, photographs: number): Shrinking {
+  if (about.fixed) return 1;
+  const fits = (times: Shrinking) => memoryOf(shapeOf(about, crop, photographs, times)) <= memoryHere();
+  return SHRINKINGS.find(fits) ?? 4;
 }
 
 function memoryWords(bytes: number): string {

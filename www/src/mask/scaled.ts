@@ -1,7 +1,11 @@
 import type { ObjectMask } from "normalight";
 
 /** A mask in a frame of another size, by the nearest pixel. */
-export function scaled({ width, height, inside }: ObjectMask, toWidth: number, toHeight: number): Uint8Array {
+export function scaled(
+  { width, height, inside }: Pick<ObjectMask, "width" | "height" | "inside">,
+  toWidth: number,
+  toHeight: number,
+): Uint8Array {
   if (width === toWidth && height === toHeight) return inside;
   const columns = Int32Array.from({ length: toWidth }, (_, x) => Math.floor(((x + 0.5) * width) / toWidth));
   const mask = new Uint8Array(toWidth * toHeight);

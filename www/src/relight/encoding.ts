@@ -2,10 +2,7 @@
 export const STEPS = 4096;
 
 /** 8-bit sRGB of linear light in so many steps. */
-export const ENCODED = Uint8ClampedArray.from({ length: STEPS + 1 }, (_, step) => {
-  const linear = step / STEPS;
-  return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
-});
+export const ENCODED = encodedBy(STEPS);
 
 /** Linear light of 8-bit sRGB. */
 export const DECODED = Float32Array.from({ length: 256 }, (_, code) => {
@@ -21,4 +18,12 @@ export function encode(linear: number): number {
 /** Linear light of a code of 8-bit sRGB. */
 export function decode(code: number): number {
   return DECODED[code] ?? 0;
+}
+
+/** A table from linear light to 8-bit sRGB, rounded, in so many steps. */
+export function encodedBy(steps: number): Uint8ClampedArray<ArrayBuffer> {
+  return Uint8ClampedArray.from({ length: steps + 1 }, (_, step) => {
+    const linear = step / steps;
+    return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055);
+  });
 }

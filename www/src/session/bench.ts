@@ -1,3 +1,4 @@
+import type { FramedCrop } from "../crop/editor.js";
 import type { Hand } from "../lights/hand.js";
 import type { Outcome } from "../result.js";
 import type { KeptSettings } from "../settings.js";
@@ -8,6 +9,8 @@ export interface Bench {
   readonly name: string;
   readonly photographs: number;
   readonly files: readonly File[];
+  /** The part of the photographs that is taken. */
+  readonly crop: FramedCrop | undefined;
   readonly settings: KeptSettings;
   readonly outcome: Outcome | undefined;
   /** The lights of that result, as people have set them. */
@@ -18,7 +21,7 @@ export interface Bench {
 export type Part = "stack" | "settings" | "outcome" | "hand";
 
 /** How the browser holds a stack. */
-export interface KeptStack extends Pick<Bench, "name" | "photographs"> {
+export interface KeptStack extends Pick<Bench, "name" | "photographs" | "crop"> {
   /** When its photographs came. */
   readonly time: number;
   /** Names of the parts that hold its files, in their order. */
@@ -26,7 +29,7 @@ export interface KeptStack extends Pick<Bench, "name" | "photographs"> {
 }
 
 /** How the browser holds a result. */
-export interface KeptOutcome extends Pick<Outcome, "name" | "format" | "size" | "times"> {
+export interface KeptOutcome extends Pick<Outcome, "name" | "format" | "size" | "taken"> {
   /** Packed. */
   readonly estimate: unknown;
   /** As those of the stack. */

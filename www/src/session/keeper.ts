@@ -88,7 +88,7 @@ export class SessionKeeper {
 
   /** Writes the stack; whether it is still the one on the bench afterwards. */
   async #writeStack(): Promise<boolean> {
-    const { files, name, photographs } = this.bench();
+    const { files, name, photographs, crop } = this.bench();
     const missing = files.filter((file) => !this.#names.has(file));
     const needed = missing.reduce((sum, { size }) => sum + size, 0);
     const free = await room();
@@ -104,6 +104,7 @@ export class SessionKeeper {
     await this.store.set("stack", {
       name,
       photographs,
+      crop,
       time: this.#time,
       files: this.#stack,
     } satisfies KeptStack);
@@ -126,13 +127,13 @@ export class SessionKeeper {
       await this.store.delete("outcome");
       return;
     }
-    const { name, format, files, used, size, times } = outcome;
+    const { name, format, files, used, size, taken } = outcome;
     const estimate = await pack(outcome.estimate);
     // Photographs that were made smaller are files of their own.
     for (const file of used) if (!this.#names.has(file)) await this.#writeFile(file);
     const parts = { files: this.#partsOf(files), used: this.#partsOf(used) };
     this.#outcome = [...parts.files, ...parts.used];
-    await this.store.set("outcome", { name, format, size, times, estimate, ...parts } satisfies KeptOutcome);
+    await this.store.set("outcome", { name, format, size, taken, estimate, ...parts } satisfies KeptOutcome);
     await this.#deleteOthers();
   }
 

@@ -82,7 +82,7 @@ export class Session {
       const ofOutcome = [...(outcome?.files ?? []), ...(outcome?.used ?? [])];
       const files = await this.#files([...new Set([...stack.files, ...ofOutcome])]);
       const listed = (parts: readonly string[]) => parts.flatMap((part) => files.get(part) ?? []);
-      const { name, photographs } = stack;
+      const { name, photographs, crop } = stack;
       const shown = outcome && {
         ...outcome,
         estimate: (await unpack(outcome.estimate)) as Outcome["estimate"],
@@ -92,7 +92,8 @@ export class Session {
       // Other files were taken meanwhile: those count.
       if (this.#page.bench().files.length > 0) return;
       this.#keeper.adopt(stack, ofOutcome, files);
-      this.#page.restore({ name, photographs, files: listed(stack.files), settings, outcome: shown, hand });
+      const kept = { name, photographs, files: listed(stack.files), crop };
+      this.#page.restore({ ...kept, settings, outcome: shown, hand });
       say(this.#problem, "");
     } catch (error) {
       say(this.#problem, `What was kept cannot be read: ${wordsOf(error)}`);

@@ -72,14 +72,20 @@ function filesIn(folder) {
 }
 
 /**
- * A grey PNG of one value, or of a ramp from half of it that rises along an axis, as a surface looks under a lamp.
+ * A grey PNG of one value, or of a ramp from half of it that rises along an axis, as a surface looks under a lamp, or of black
+ * pixels and those of the value in turns.
  * @param {string} name @param {number} width @param {number} height @param {number} value
- * @param {"x" | "y" | "both"} [lit]
+ * @param {"x" | "y" | "both" | "squares"} [lit]
  * @returns {TestFile}
  */
 export function greyPng(name, width, height, value, lit) {
   /** @param {number} x @param {number} y */
-  const share = (x, y) => ({ x: x / width, y: y / height, both: (x / width + y / height) / 2 });
+  const share = (x, y) => ({
+    x: x / width,
+    y: y / height,
+    both: (x / width + y / height) / 2,
+    squares: 2 * ((x + y) % 2) - 1,
+  });
   const rows = Array.from({ length: height }, (_, y) => {
     const row = Array.from({ length: width }, (_, x) => (lit ? (value / 2) * (1 + share(x, y)[lit]) : value));
     return Buffer.from([0, ...row]);

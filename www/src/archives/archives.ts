@@ -1,0 +1,31 @@
+import { type Found, isOther } from "../captures.js";
+import type { FromArchives } from "./worker.js";
+
+const ZIP = /\.zip$/i;
+
+/** Whether all that may be photographs among some files are archives that can be looked into here. */
+export function areArchives(files: readonly File[]): boolean {
+  const all = files.filter((file) => !isOther(file));
+  return all.length > 0 && all.every(({ name }) => ZIP.test(name));
+}
+
+/**
+ * The captures in zip archives, where there are several; the estimator takes archives of one capture by itself, and other
+ * kinds of them.
+ */
+export async function capturesOf(files: readonly File[]): Promise<Found | undefined> {
+  const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+  try {
+    return await new Promise((resolve, reject) => {
+      worker.onmessage = ({ data }: MessageEvent<FromArchives>) =>
+        "problem" in data ? reject(new Error(data.problem)) : resolve(data.found);
+      worker.onerror = (event) => {
+        event.preventDefault();
+        reject(new Error(`The archive cannot be unpacked: ${event.message || "out of memory"}`));
+      };
+      worker.postMessage(files.filter(({ name }) => ZIP.test(name)));
+    });
+  } finally {
+    worker.terminate();
+  }
+}

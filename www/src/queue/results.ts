@@ -1,0 +1,77 @@
+import { createStore, delMany, get, keys, set } from "idb-keyval";
+import type { Outcome } from "../result.js";
+import { pack, unpack } from "../session/pack.js";
+
+/** Where results of queues lie in this browser, by a name of their window and their number. */
+const stored = createStore("normalight.queue", "results");
+
+/** What a window holds as long as it is there. */
+const LOCK = "normalight.queue ";
+
+/** The part of a result that is stored. */
+interface Stored {
+  /** Packed. */
+  readonly estimate: unknown;
+  /** Photographs that were cropped or made smaller, at their places among those that were used. */
+  readonly made: readonly (File | undefined)[];
+}
+
+/** A result of which the browser holds what is large; or all of it, where it has no room. */
+type Held = { readonly outcome: Outcome } | { readonly light: Omit<Outcome, "estimate"> };
+
+/** Results of a queue: in the browser, so that memory does not grow with their number, until this window ends. */
+export class Results {
+  readonly #window = crypto.randomUUID?.() ?? String(Math.random());
+  readonly #held = new Map<number, Held>();
+
+  constructor() {
+    navigator.locks?.request(LOCK + this.#window, () => new Promise<void>(() => undefined));
+    // What other windows left that are gone; a browser that keeps nothing has nothing left.
+    this.#sweep().catch(() => undefined);
+  }
+
+  /** Keeps a result; false where that must be in this page's memory. */
+  async keep(index: number, outcome: Outcome): Promise<boolean> {
+    const { estimate, ...light } = outcome;
+    const own = new Set(outcome.files);
+    const made = outcome.used.map((file) => (own.has(file) ? undefined : file));
+    try {
+      await set(this.#key(index), { estimate: await pack(estimate), made } satisfies Stored, stored);
+      this.#held.set(index, { light: { ...light, used: outcome.used.filter((file) => own.has(file)) } });
+      return true;
+    } catch {
+      this.#held.set(index, { outcome });
+      return false;
+    }
+  }
+
+  /** A result that was kept. */
+  async read(index: number): Promise<Outcome> {
+    const held = this.#held.get(index);
+    if (!held) throw new Error("This result is not kept.");
+    if ("outcome" in held) return held.outcome;
+    const kept = await get<Stored>(this.#key(index), stored);
+    if (!kept) throw new Error("The browser has deleted this result.");
+    const own = held.light.used[Symbol.iterator]();
+    const used = kept.made.flatMap((file) => file ?? own.next().value ?? []);
+    return { ...held.light, used, estimate: (await unpack(kept.estimate)) as Outcome["estimate"] };
+  }
+
+  /** Gives all of them up. */
+  async clear(): Promise<void> {
+    const names = [...this.#held.keys()].map((index) => this.#key(index));
+    this.#held.clear();
+    await delMany(names, stored).catch(() => undefined);
+  }
+
+  #key(index: number): string {
+    return `${this.#window} ${index}`;
+  }
+
+  async #sweep(): Promise<void> {
+    const { held = [] } = (await navigator.locks?.query()) ?? {};
+    const alive = new Set([LOCK + this.#window, ...held.map(({ name }) => name)]);
+    const names = (await keys<string>(stored)).filter((name) => !alive.has(LOCK + name.split(" ")[0]));
+    if (names.length > 0) await delMany(names, stored);
+  }
+}

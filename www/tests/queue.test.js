@@ -1,0 +1,153 @@
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+import { unzipSync } from "fflate";
+import { AVIF_BALLS } from "./support/avif.js";
+import { complaints } from "./support/axe.js";
+import { drop } from "./support/drop.js";
+import { greyPng, zipOf } from "./support/files.js";
+import { Page } from "./support/page.js";
+
+/** @typedef {import("./support/files.js").TestFile} TestFile */
+
+/** @type {Page} */
+let page;
+/** @type {import("playwright-core").Page} */
+let tab;
+
+before(async () => {
+  page = await Page.open({ webgpu: false });
+  tab = page.page;
+  await page.quick();
+});
+after(() => page.close());
+
+/** Files in a folder. @param {string} folder @param {TestFile[]} files */
+const inFolder = (folder, files) => files.map(({ name, bytes }) => ({ name: `${folder}/${name}`, bytes }));
+
+/** Photographs of different sizes, which cannot be estimated. */
+const odd = [20, 30, 40].map((side) => greyPng(`${side}.png`, side, side, 200, "x"));
+
+/** Three captures, of which the second fails; files of the others have the same names. */
+const captures = [
+  ...inFolder("all/bowl", AVIF_BALLS),
+  ...inFolder("all/odd", odd),
+  ...inFolder("all/vase", AVIF_BALLS.slice(0, 3)),
+];
+
+/** What the list says of a stack. @param {string} name */
+const said = (name) => tab.locator(`#queue-list li:has-text("${name}") span`).textContent();
+
+/** Estimates all and waits for the end. */
+async function estimateAll() {
+  await tab.click("#estimate-all");
+  await tab.waitForSelector("#cancel:visible");
+  await tab.waitForSelector("#start:visible");
+}
+
+test("all stacks are estimated one after the other, and one that fails says why", async () => {
+  await drop(tab, captures);
+  await tab.waitForSelector("#estimate-all:text('Estimate all 3')");
+  await page.thumbnails(AVIF_BALLS.length);
+  // What is set for the stack on the bench goes for it, and where photographs are as large.
+  await tab.click("#crop");
+  await tab.fill('[name="crop-width"]', "48");
+  await tab.click('.crop-editor [data-do="done"]');
+  await tab.click("#estimate-all");
+  await tab.waitForSelector("#progress-words:has-text('Stack 1 of 3, all/bowl: ')");
+  await tab.waitForSelector("#progress-words:has-text('Stack 3 of 3, all/vase: ')");
+  await tab.waitForSelector("#start:visible");
+  assert.match((await tab.textContent("#status")) ?? "", /^2 of 3 stacks done, 1 failed in \d+ s\.$/);
+  assert.match((await said("bowl")) ?? "", /^4 photographs of 48 × 64 pixels, cropped to .*; [\d.]+ s$/);
+  assert.match((await said("odd")) ?? "", /^failed: .*\b30/);
+  assert.match((await said("vase")) ?? "", /^3 photographs of 48 × 64 pixels, cropped/);
+  await tab.waitForSelector("#result-title:text('Result of all/bowl')");
+  assert.deepEqual(await complaints(tab, "#queue"), []);
+  assert.deepEqual(await complaints(tab, "#bench"), []);
+});
+
+test("one can switch between the finished ones; the bench has the stack of the one that is shown", async () => {
+  await tab.click('#queue-list button:text("all/vase")');
+  await tab.waitForSelector("#result-title:text('Result of all/vase')");
+  await tab.waitForSelector("#stack-words:has-text('3 photographs')");
+  assert.match((await tab.textContent("#facts")) ?? "", /3 of 48 × 64/);
+  assert.equal(await tab.isVisible("#result-stale"), false);
+  const pressed = () => tab.locator('#queue-list [aria-pressed="true"]').allTextContents();
+  assert.deepEqual(await pressed(), ["all/vase"]);
+  assert.equal(await tab.getAttribute('#folder-others button:has-text("vase")', "aria-pressed"), "true");
+  const vase = await page.download("normals.png");
+  await tab.click('#queue-list button:text("all/bowl")');
+  await tab.waitForSelector("#stack-words:has-text('4 photographs')");
+  const bowl = await page.download("normals.png");
+
+  const coming = tab.waitForEvent("download");
+  await tab.click("#queue-zip");
+  const files = unzipSync(new Uint8Array(await readFile(await (await coming).path())));
+  assert.deepEqual(
+    [...new Set(Object.keys(files).map((name) => name.split("/")[0]))],
+    ["all-bowl", "all-vase"],
+  );
+  assert.deepEqual(Buffer.from(files["all-bowl/normals.png"] ?? []), bowl);
+  assert.deepEqual(Buffer.from(files["all-vase/normals.png"] ?? []), vase);
+  assert.ok(files["all-vase/report.json"]);
+  // A run of its own is none of the queue.
+  assert.equal(await page.estimate(), "");
+  assert.deepEqual(await pressed(), []);
+});
+
+test("cancelling stops the queue at once, and keeps what is finished", async () => {
+  const names = ["1", "2", "3", "4", "5", "6"];
+  await page.upload([
+    zipOf(
+      "captures.zip",
+      names.flatMap((name) => inFolder(name, AVIF_BALLS)),
+    ),
+  ]);
+  await tab.waitForSelector(
+    "#folder-words:text('6 folders with photographs lie in the archive captures.zip. Taken: 1.')",
+  );
+  await page.thumbnails(AVIF_BALLS.length);
+  await tab.click("#estimate-all");
+  await tab.waitForSelector('#queue-list li:nth-child(1)[data-state="done"]');
+  // A finished one can be looked at meanwhile.
+  await tab.click("#queue-list li:nth-child(1) button");
+  await tab.waitForSelector("#result-title:text('Result of 1')");
+  await tab.click("#cancel");
+  await tab.waitForSelector("#start:visible");
+  const states = await tab
+    .locator("#queue-list li")
+    .evaluateAll((items) => items.map((item) => /** @type {HTMLElement} */ (item).dataset.state));
+  // More than the first may have been finished before the click.
+  const done = states.lastIndexOf("done") + 1;
+  assert.deepEqual(
+    states,
+    names.map((_, index) => (index < done ? "done" : "cancelled")),
+  );
+  assert.ok(done >= 1 && done < names.length, states.join());
+  const words = `${done} of 6 stacks done in`;
+  assert.ok((await tab.textContent("#status"))?.startsWith(words));
+  await tab.waitForSelector("#status:has-text('Cancelled; what is finished is kept.')");
+  await tab.click("#queue-forget");
+  assert.equal(await tab.isVisible("#queue"), false);
+});
+
+test("several archives are several stacks; a browser without room keeps results in memory, and says so", async () => {
+  await tab.evaluate(() => {
+    const put = IDBObjectStore.prototype.put;
+    IDBObjectStore.prototype.put = function (...args) {
+      if (this.name === "results") throw new DOMException("no", "QuotaExceededError");
+      return put.apply(this, args);
+    };
+  });
+  await page.upload([zipOf("a.zip", AVIF_BALLS), zipOf("b.zip", AVIF_BALLS.slice(1))]);
+  await tab.waitForSelector("#estimate-all:text('Estimate all 2')");
+  await estimateAll();
+  assert.match(
+    (await tab.textContent("#queue-words")) ?? "",
+    /^2 of 2 stacks done\. This browser has no room/,
+  );
+  await tab.click('#queue-list button:text("b")');
+  await tab.waitForSelector("#result-title:text('Result of b')");
+  assert.match((await tab.textContent("#facts")) ?? "", /3 of 64 × 64/);
+  page.assertQuiet();
+});
