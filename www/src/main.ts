@@ -25,6 +25,7 @@ const intro = new Intro();
 const engine = new Engine(() => offline.keep());
 const stack = new Stack(engine, {
   changed() {
+    intro.rest(stack.files.length > 0);
     size.wait();
     run.stackChanged();
     result.stackIs(stack.files);
