@@ -37,6 +37,11 @@ export function paint(
   context(canvas).putImageData(new ImageData(pixels, width, height), 0, 0);
 }
 
+/** Changes the words of an element, where they are others: the same ones would be laid out again. */
+export function write(element: HTMLElement, words: string): void {
+  if (element.textContent !== words) element.textContent = words;
+}
+
 /** Shows words in an element, which is hidden while there are none. */
 export function say(element: HTMLElement, words: string): void {
   element.hidden = words === "";

@@ -52,6 +52,7 @@ export class Downloads {
   #files: readonly Kept[] = [];
   #derived: readonly Kept[] = [];
   #addresses: string[] = [];
+  #listing: ReturnType<typeof setTimeout> | undefined;
   /** A number that changes with the result. */
   #turn = 0;
 
@@ -88,7 +89,13 @@ export class Downloads {
     this.#list();
   }
 
+  /** Lists the files in a task of its own: copying them out of the page takes a while. */
   #list(): void {
+    clearTimeout(this.#listing);
+    this.#listing = setTimeout(() => this.#listNow());
+  }
+
+  #listNow(): void {
     for (const address of this.#addresses) URL.revokeObjectURL(address);
     const links = [...this.#files, ...this.#derived].map((file) => {
       const words = [WORDS[file.name], sizeOf(file.bytes)].filter(Boolean).join(", ");

@@ -14,19 +14,29 @@ export class Intro {
   readonly #lights = byId<HTMLCanvasElement>("intro-lights");
   readonly #surface = shell();
   #pointer: readonly [number, number] | undefined;
+  /** The next drawing, while the lamp moves by itself. */
+  #next: number | undefined;
 
   constructor() {
     this.#section.addEventListener("pointermove", (event) => {
       const { left, top, width, height } = this.#photographs.getBoundingClientRect();
       const x = ((event.clientX - left) / width) * 2 - 1;
       this.#pointer = [x, 1 - ((event.clientY - top) / height) * 2];
+      if (this.#next === undefined) this.#draw(0);
     });
     this.#section.addEventListener("pointerleave", () => {
       this.#pointer = undefined;
     });
     this.#drawNormals();
     this.#draw(0.6);
-    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) requestAnimationFrame(this.#step);
+    this.rest(false);
+  }
+
+  /** Whether the lamp rests: once there are photographs, the processor is wanted for them. */
+  rest(resting: boolean): void {
+    if (this.#next !== undefined) cancelAnimationFrame(this.#next);
+    const moving = !resting && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.#next = moving ? requestAnimationFrame(this.#step) : undefined;
   }
 
   hide(): void {
@@ -36,7 +46,7 @@ export class Intro {
   readonly #step = (time: number) => {
     if (this.#section.hidden) return;
     this.#draw(time / 1000);
-    requestAnimationFrame(this.#step);
+    this.#next = requestAnimationFrame(this.#step);
   };
 
   #draw(seconds: number): void {

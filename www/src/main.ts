@@ -30,6 +30,7 @@ const intro = new Intro();
 const engine = new Engine(() => offline.keep());
 const stack = new Stack(engine, {
   changed() {
+    intro.rest(stack.files.length > 0);
     size.wait();
     run.stackChanged();
     result.stackIs(stack.files);
@@ -124,6 +125,8 @@ const samples = new SampleChoice((files, { color, title }) => {
 });
 // A sample that arrives late must not replace the photographs of a run.
 form.addEventListener("submit", () => samples.cancel());
+// While the estimator computes, the page has nothing to do.
+form.addEventListener("submit", () => setTimeout(() => result.prepare()));
 
 /** Takes files in place of all others; a mask and lights that were chosen for those go with them. */
 function replace(files: File[]): void {

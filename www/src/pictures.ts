@@ -6,7 +6,7 @@ import { Distrust } from "./relight/distrust.js";
 import { Relighting } from "./relight/relighting.js";
 import { Replay } from "./relight/replay.js";
 import type { Outcome } from "./result.js";
-import type { Relief } from "./solid/height_field.js";
+import type { Relief } from "./solid/grid.js";
 import { Solid } from "./solid/solid.js";
 import type { Layer } from "./viewer/choice.js";
 import { Viewer } from "./viewer/viewer.js";

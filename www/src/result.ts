@@ -49,6 +49,11 @@ export class ResultView {
     if (outcome === this.#outcome && format === this.#format) this.#downloads.turn(png, format);
   }
 
+  /** A result may come soon. */
+  prepare(): void {
+    this.#pictures.relighting.prepare();
+  }
+
   show(outcome: Outcome): void {
     const { estimate, name, format } = outcome;
     this.#outcome = outcome;
@@ -63,10 +68,10 @@ export class ResultView {
     sayLines(byId("plan"), estimate.planWords);
     showSeconds(estimate);
     this.#downloads.show(estimate.files, name);
-    byId("result-title").focus({ preventScroll: true });
-    const { top } = byId("result").getBoundingClientRect();
-    const behavior = matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
-    if (top < 0 || top > innerHeight * 0.6) byId("result").scrollIntoView({ behavior });
+    // In the next frame, which lays out the page anyway: finding out where things are would do that now, and once more then.
+    requestAnimationFrame(() => {
+      if (outcome === this.#outcome) lookAt(byId("result-title"));
+    });
   }
 
   /** The stack holds these files now: a result of others says so. */
@@ -106,6 +111,14 @@ export class ResultView {
   shineFrom(x: number, y: number): void {
     this.#pictures.shineFrom(x, y);
   }
+}
+
+/** Gives a title the focus, and brings it into sight. */
+function lookAt(title: HTMLElement): void {
+  title.focus({ preventScroll: true });
+  const { top } = byId("result").getBoundingClientRect();
+  const behavior = matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
+  if (top < 0 || top > innerHeight * 0.6) byId("result").scrollIntoView({ behavior });
 }
 
 function showFacts(estimate: Estimate, size: string): void {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { greyPng, hugePng } from "./support/files.js";
+import { greyPng, hugePng, squareMask } from "./support/files.js";
 import { Page } from "./support/page.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
@@ -24,17 +24,8 @@ before(async () => {
 });
 after(() => page.close());
 
-/** A mask with a small square in its middle, as a portable grey map. @param {number} side @returns {TestFile} */
-function square(side) {
-  const pixels = Uint8Array.from({ length: side * side }, (_, at) => {
-    const [x, y] = [at % side, Math.floor(at / side)];
-    return Math.abs(x - side / 2) < 24 && Math.abs(y - side / 2) < 24 ? 255 : 0;
-  });
-  return { name: "mask.pgm", bytes: Buffer.concat([Buffer.from(`P5 ${side} ${side} 255\n`), pixels]) };
-}
-
 test("what large photographs cost is said, and they are taken at a quarter of their size", async () => {
-  await page.upload([...large, square(SIDE / 4)]);
+  await page.upload([...large, squareMask(SIDE / 4, 24)]);
   await tab.waitForSelector(
     '#large-words:has-text("3 photographs of 4.0 megapixels: about 0.9 GB of memory; about 4 min")',
   );

@@ -2,13 +2,22 @@ import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
 
-/** Types that every server knows. @type {Record<string, string>} */
+/** @type {Record<string, string>} */
 const TYPES = {
+  ".css": "text/css",
   ".html": "text/html",
   ".js": "text/javascript",
-  ".wasm": "application/wasm",
+  ".json": "application/json",
   ".png": "image/png",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+  ".webmanifest": "application/manifest+json",
 };
+
+/** The type by which servers send a file; one without an extension is a page. @param {string} path */
+export function typeOf(path) {
+  return TYPES[extname(path) || ".html"] ?? "application/octet-stream";
+}
 
 /**
  * @callback Misbehaviour answers by itself, or says nothing
@@ -29,9 +38,9 @@ export async function serve(folder, misbehave = () => false) {
     response.setHeader("Access-Control-Allow-Origin", "*");
     if (await misbehave(path, response)) return;
     try {
-      const bytes = await readFile(join(folder, path.endsWith("/") ? `${path}index.html` : path));
-      const type = TYPES[extname(path) || ".html"] ?? "application/octet-stream";
-      response.writeHead(200, { "Content-Type": type, "Content-Length": bytes.length }).end(bytes);
+      const file = path.endsWith("/") ? `${path}index.html` : path;
+      const bytes = await readFile(join(folder, file));
+      response.writeHead(200, { "Content-Type": typeOf(file), "Content-Length": bytes.length }).end(bytes);
     } catch {
       response.writeHead(404).end("not there");
     }

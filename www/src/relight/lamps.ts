@@ -1,4 +1,4 @@
-import { byId, make } from "../dom.js";
+import { byId, make, write } from "../dom.js";
 import { towards } from "../vector.js";
 import { FIRST, type Lamp, MOST_LAMPS } from "./shading.js";
 
@@ -108,10 +108,10 @@ export class Lamps {
     }
     const { brightness } = this.#all[this.#chosen] ?? FIRST;
     this.#brightness.valueAsNumber = brightness;
-    this.#words.textContent = `${Math.round(100 * brightness)} %`;
+    write(this.#words, `${Math.round(100 * brightness)} %`);
     this.#add.disabled = this.#all.length >= MOST_LAMPS;
     this.#remove.disabled = this.#all.length <= 1;
-    byId("lamp-words").textContent = `Lamp ${this.#chosen + 1} of ${this.#all.length}`;
+    write(byId("lamp-words"), `Lamp ${this.#chosen + 1} of ${this.#all.length}`);
   }
 
   #handle(index: number): HTMLButtonElement {

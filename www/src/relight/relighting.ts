@@ -53,11 +53,16 @@ export class Relighting implements LampHook {
     return this.#look;
   }
 
+  /** Opens what paints, before there is a result: that takes a while. */
+  prepare(): void {
+    if (!this.#tried) this.#gl = GlPainter.open(this.above, () => this.#paintByProcessor());
+    this.#tried = true;
+  }
+
   /** Takes another result. */
   show(skin: Skin): void {
     this.#skin = skin;
-    if (!this.#tried) this.#gl = GlPainter.open(this.above, () => this.#paintByProcessor());
-    this.#tried = true;
+    this.prepare();
     this.#gl?.begin();
     this.#take(this.#gl?.load(skin) ? this.#gl : new ProcessorPainter(skin, this.changed));
     byId("relight-words").textContent =

@@ -1,6 +1,7 @@
 import { byId, say, wordsOf } from "../dom.js";
 import type { Lamp, Look } from "../relight/shading.js";
-import { heightField, type Relief, stepFor } from "./height_field.js";
+import type { Relief } from "./grid.js";
+import { heightField, stepFor } from "./height_field.js";
 import type { SolidScene } from "./scene.js";
 
 /** Vertices at most: what laptops turn without stutter. */

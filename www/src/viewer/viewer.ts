@@ -1,4 +1,4 @@
-import { byId, make } from "../dom.js";
+import { byId, make, write } from "../dom.js";
 import { Choice, type Layer } from "./choice.js";
 import { type Asked, listen, STEP } from "./gestures.js";
 import { drawHistogram } from "./histogram.js";
@@ -139,8 +139,7 @@ export class Viewer {
     this.#part(drawing, this.#other, middle, this.#size.width, place);
     if (this.#movesLamp) for (const { x, y } of this.lamp.places) glow(drawing, this.#size, x, y);
     if (this.#canvas.matches(":focus-visible")) crosshair(drawing, this.#size);
-    const percent = Math.round(100 * this.#view.scale);
-    this.#percent.textContent = `${percent} %`;
+    write(this.#percent, `${Math.round(100 * this.#view.scale)} %`);
     // Where the whole is seen, a finger scrolls the page.
     const scrolls = !this.#movesLamp && isFit(this.#view, this.#frame, this.#size);
     this.#canvas.dataset.drag = this.#movesLamp ? "lamp" : scrolls ? "page" : "picture";
@@ -172,11 +171,16 @@ export class Viewer {
     const at = this.#pointer ?? (keys ? [this.#size.width / 2, this.#size.height / 2] : undefined);
     const pairs = at && this.#known ? this.#wordsAt(...(at as [number, number]), this.#known) : [];
     const nothing: [string, string][] = [["", "Point at the picture to read its values."]];
-    this.#values.replaceChildren(
-      ...(pairs.length > 0 ? pairs : nothing).map(([name, words]) =>
-        make("div", "", make("dt", "", name || "values"), make("dd", "", words)),
-      ),
-    );
+    const shown = pairs.length > 0 ? pairs : nothing;
+    // In place: this follows every move of the pointer.
+    while (this.#values.children.length > shown.length) this.#values.lastElementChild?.remove();
+    while (this.#values.children.length < shown.length)
+      this.#values.append(make("div", "", make("dt"), make("dd")));
+    for (const [index, row] of [...this.#values.children].entries()) {
+      const [name, words] = shown[index] ?? ["", ""];
+      write(row.firstElementChild as HTMLElement, name || "values");
+      write(row.lastElementChild as HTMLElement, words);
+    }
     this.#values.classList.toggle("none", pairs.length === 0);
   }
 

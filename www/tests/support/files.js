@@ -94,6 +94,19 @@ export function greyPng(name, width, height, value, lit) {
 }
 
 /**
+ * A mask with a square in its middle, as a portable grey map.
+ * @param {number} side @param {number} reach from the middle to a side of the square
+ * @returns {TestFile}
+ */
+export function squareMask(side, reach) {
+  const pixels = Uint8Array.from({ length: side * side }, (_, at) => {
+    const [x, y] = [at % side, Math.floor(at / side)];
+    return Math.max(Math.abs(x - side / 2), Math.abs(y - side / 2)) < reach ? 255 : 0;
+  });
+  return { name: "mask.pgm", bytes: Buffer.concat([Buffer.from(`P5 ${side} ${side} 255\n`), pixels]) };
+}
+
+/**
  * A PNG whose header promises more pixels than anyone has.
  * @param {string} name @returns {TestFile}
  */

@@ -1,21 +1,9 @@
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
-import { extname } from "node:path";
 import { fileURLToPath } from "node:url";
+import { typeOf } from "../../../web/test/support/server.js";
 
 const BUILD = fileURLToPath(new URL("../../dist/", import.meta.url));
-
-/** @type {Record<string, string>} */
-const TYPES = {
-  ".css": "text/css",
-  ".html": "text/html",
-  ".js": "text/javascript",
-  ".json": "application/json",
-  ".png": "image/png",
-  ".svg": "image/svg+xml",
-  ".wasm": "application/wasm",
-  ".webmanifest": "application/manifest+json",
-};
 
 /** A plain server with the built page in one of its folders, which can go away and get another build. */
 export class Host {
@@ -36,9 +24,7 @@ export class Host {
       if (!path || content === undefined) return response.writeHead(404).end("not found");
       // Whoever asks from elsewhere may: only the page's own policy keeps it from asking.
       const headers = { "Cache-Control": "max-age=600", "Access-Control-Allow-Origin": "*" };
-      response
-        .writeHead(200, { ...headers, "Content-Type": TYPES[extname(path)] ?? "text/plain" })
-        .end(content);
+      response.writeHead(200, { ...headers, "Content-Type": typeOf(path) }).end(content);
     });
     await new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(undefined)));
     const address = /** @type {import("node:net").AddressInfo} */ (server.address());

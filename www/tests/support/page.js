@@ -17,6 +17,16 @@ const QUIET = [
   "--disable-sync",
 ];
 
+/** Serves the built page. */
+export async function serveBuild() {
+  const server = await preview({
+    root: fileURLToPath(new URL("../..", import.meta.url)),
+    logLevel: "silent",
+    preview: { host: "127.0.0.1", port: 0, strictPort: false },
+  });
+  return { address: server.resolvedUrls?.local[0] ?? "", close: () => server.close() };
+}
+
 /** The page in a browser of its own; whatever reaches the browser's console fails the test. */
 export class Page {
   /** @type {string[]} */
@@ -49,15 +59,7 @@ export class Page {
   static async open({ webgpu, offline = false, address, args = [] }) {
     const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
     assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
-    const root = fileURLToPath(new URL("../..", import.meta.url));
-    const server =
-      address === undefined
-        ? await preview({
-            root,
-            logLevel: "silent",
-            preview: { host: "127.0.0.1", port: 0, strictPort: false },
-          })
-        : undefined;
+    const server = address === undefined ? await serveBuild() : undefined;
     const devices = webgpu ? ["--enable-unsafe-webgpu"] : [];
     const browser = await chromium.launch({ executablePath, args: [...QUIET, ...devices, ...args] });
     const context = await browser.newContext({
@@ -70,7 +72,7 @@ export class Page {
       await server?.close();
     };
     const opened = new Page(page, close, webgpu ? PATIENCE_GPU : undefined);
-    await page.goto(address ?? server?.resolvedUrls?.local[0] ?? "");
+    await page.goto(address ?? server?.address ?? "");
     await opened.ready();
     return opened;
   }
