@@ -1,11 +1,9 @@
-// What the page costs those who leave it open: its memory, and how long it keeps them waiting.
+// How long the page keeps people waiting, in processor time: `npm run bench --workspace www`.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { greyPng, squareMask } from "./support/files.js";
-import { Memory } from "./support/memory.js";
-import { Page } from "./support/page.js";
-import { FRAME, LONGEST, traced } from "./support/tasks.js";
-import { tiffPages } from "./support/tiff.js";
+import { greyPng, squareMask } from "../support/files.js";
+import { Page } from "../support/page.js";
+import { FRAME, LONGEST, traced } from "../support/tasks.js";
 
 /** @type {Page} */
 let page;
@@ -18,45 +16,6 @@ before(async () => {
   await page.quick();
 });
 after(() => page.close());
-
-test("ten estimates hold no more memory than one", async () => {
-  const memory = await Memory.of(tab);
-  await tab.evaluate(() => {
-    const addresses = new Set();
-    const { createObjectURL, revokeObjectURL } = URL;
-    URL.createObjectURL = (of) => {
-      const address = createObjectURL(of);
-      addresses.add(address);
-      return address;
-    };
-    URL.revokeObjectURL = (address) => {
-      addresses.delete(address);
-      revokeObjectURL(address);
-    };
-    Object.assign(globalThis, { addresses });
-  });
-  // Files behind addresses are held outside of the page.
-  const addresses = () => tab.evaluate(() => /** @type {any} */ (globalThis).addresses.size);
-  await page.upload([
-    tiffPages("balls.tif", 96, [
-      [0, 0],
-      [0.5, 0],
-      [-0.5, 0],
-      [0, 0.5],
-    ]),
-  ]);
-  await tab.waitForSelector("#stack-kept:visible");
-  assert.equal(await page.estimate(), "");
-  const [one, few] = [await memory.held(), await addresses()];
-  assert.ok(few > 0);
-  for (let run = 2; run <= 10; run++) assert.equal(await page.estimate(), "");
-  const ten = await memory.held();
-  for (const part of /** @type {const} */ (["page", "nodes", "workers", "modules"])) {
-    const words = `${part}: ${one[part]} after one estimate, ${ten[part]} after ten`;
-    assert.ok(one[part] > 0 && ten[part] <= 1.1 * one[part], words);
-  }
-  assert.equal(await addresses(), few);
-});
 
 test("no task stops the page while it estimates and shows a megapixel, and frames are drawn quickly", async (t) => {
   const side = 1024;
