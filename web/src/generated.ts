@@ -218,6 +218,14 @@ export interface Estimate {
      */
     expectedErrors: ExpectedErrors;
     /**
+     * How far off the normals are, where a file among the photographs has true ones.
+     */
+    trueErrors?: TruthErrors;
+    /**
+     * The error of each normal in degrees, one a pixel, there; not a number where nothing is to be compared.
+     */
+    trueErrorMap?: FloatMap;
+    /**
      * The normals as 8-bit RGBA, transparent outside the object; rows from the top.
      */
     normals: Uint8Array<ArrayBuffer>;
@@ -298,6 +306,10 @@ export interface InputPlan {
      * The picture without lamp that was subtracted.
      */
     ambient: string | undefined;
+    /**
+     * The true normals, which only serve to be compared with.
+     */
+    truth?: string | undefined;
     /**
      * By how many pixels a photograph was moved at most, where that was asked for.
      */
@@ -453,7 +465,7 @@ export interface NormalPictures {
 /**
  * Something about the input that a person should know.
  */
-export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "decoded-by-browser"; format: string; files: string[] } | { kind: "from-archive"; archive: string; folder: string } | { kind: "one-in-each-folder" } | { kind: "pages-as-photographs"; file: string; pages: number } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "several-pages"; file: string; pages: number; page: number } | { kind: "animation"; file: string } | { kind: "several-layers"; file: string; taken: string; others: string[] } | { kind: "extra-channels"; file: string; channels: number } | { kind: "infinite"; file: string; samples: number } | { kind: "not-numbers"; file: string; samples: number } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string; taken: string } | { kind: "color-unstated"; taken: string; sure: number | undefined } | { kind: "color-mixed"; said: string[] } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number; sure: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "overexposed"; share: number } | { kind: "lamp-hardly-moved"; difference: number } | { kind: "room-lit"; file: string } | { kind: "ambient-left-out"; file: string } | { kind: "no-ambient" } | { kind: "ambient-brighter"; file: string; share: number } | { kind: "camera-moved"; files: string[]; pixels: number } | { kind: "unlike"; files: string[] } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-without-intensity"; file: string; found: boolean } | { kind: "lights-contradict"; file: string; axes: string | undefined } | { kind: "lights-in-plane"; degrees: number } | { kind: "lights-one-sided"; side: string; dark: number } | { kind: "lights-as-angles"; file: string; unit: string };
+export type Notice = { kind: "content-over-extension"; file: string; content: string; extension: string } | { kind: "decoded-by-browser"; format: string; files: string[] } | { kind: "from-archive"; archive: string; folder: string } | { kind: "one-in-each-folder" } | { kind: "pages-as-photographs"; file: string; pages: number } | { kind: "list-by-stem"; list: string } | { kind: "list-ignored"; list: string } | { kind: "several-pages"; file: string; pages: number; page: number } | { kind: "animation"; file: string } | { kind: "several-layers"; file: string; taken: string; others: string[] } | { kind: "extra-channels"; file: string; channels: number } | { kind: "infinite"; file: string; samples: number } | { kind: "not-numbers"; file: string; samples: number } | { kind: "truth-unread"; reason: string } | { kind: "orientations"; files: string[] } | { kind: "profile-not-understood"; file: string; reason: string; taken: string } | { kind: "color-unstated"; taken: string; sure: number | undefined } | { kind: "color-mixed"; said: string[] } | { kind: "looks-otherwise"; taken: string; looks: string; factor: number; sure: number } | { kind: "mask-labels"; file: string; parts: number } | { kind: "mask-soft"; file: string; share: number } | { kind: "mask-full"; file: string } | { kind: "mask-scaled"; file: string; from: [number, number]; to: [number, number] } | { kind: "mask-from-transparency"; file: string } | { kind: "mask-inverted"; file: string } | { kind: "mask-values"; file: string; values: number[]; above: number } | { kind: "mask-guessed-whole" } | { kind: "mask-guess-unsure"; certainty: number } | { kind: "nearly-identical"; files: string[] } | { kind: "black"; files: string[] } | { kind: "saturated"; files: string[]; share: number } | { kind: "overexposed"; share: number } | { kind: "lamp-hardly-moved"; difference: number } | { kind: "room-lit"; file: string } | { kind: "ambient-left-out"; file: string } | { kind: "no-ambient" } | { kind: "ambient-brighter"; file: string; share: number } | { kind: "camera-moved"; files: string[]; pixels: number } | { kind: "unlike"; files: string[] } | { kind: "lights-count-line"; file: string; said: number; found: number } | { kind: "lights-unused"; file: string; lights: number } | { kind: "lights-by-position"; file: string } | { kind: "lights-not-unit"; file: string; shortest: number; longest: number } | { kind: "lights-behind"; file: string; behind: number; of: number } | { kind: "lights-without-intensity"; file: string; found: boolean } | { kind: "lights-contradict"; file: string; axes: string | undefined } | { kind: "lights-in-plane"; degrees: number } | { kind: "lights-one-sided"; side: string; dark: number } | { kind: "lights-as-angles"; file: string; unit: string };
 
 /**
  * The pixels of an object.
@@ -503,7 +515,7 @@ export interface OutputFile {
 /**
  * Names of the files that an estimation leaves.
  */
-export type OutputName = "normals.png" | "normals.npy" | "lights.csv" | "lights.lp" | "lights.svg" | "albedo.png" | "mask.png" | "normals-error.png" | "report.json";
+export type OutputName = "normals.png" | "normals.npy" | "lights.csv" | "lights.lp" | "lights.svg" | "albedo.png" | "mask.png" | "normals-error.png" | "normals-true-error.png" | "report.json";
 
 /**
  * What is painted outside the object.
@@ -589,6 +601,10 @@ export interface Report {
      * How far off the result may be.
      */
     expected_errors?: ExpectedErrors;
+    /**
+     * How far off the normals are, where true ones lie beside the photographs.
+     */
+    true_errors?: TruthErrors | undefined;
     /**
      * What computed the result.
      */
@@ -737,6 +753,32 @@ export interface Thumbnail {
      * 8-bit sRGB with full alpha; rows from the top.
      */
     rgba: Uint8Array<ArrayBuffer>;
+}
+
+/**
+ * How far normals are from true ones, over the pixels of the object where these are known.
+ */
+export interface TruthErrors {
+    /**
+     * The file of the true normals.
+     */
+    file: string;
+    /**
+     * Mean angle in degrees.
+     */
+    mean: number;
+    /**
+     * Median angle in degrees.
+     */
+    median: number;
+    /**
+     * Share (0..1) of pixels under 11.25, 22.5 and 30 degrees.
+     */
+    shares: [number, number, number];
+    /**
+     * Number of pixels compared.
+     */
+    pixels: number;
 }
 
 /**
