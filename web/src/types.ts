@@ -50,6 +50,7 @@ export type {
   Stage,
   StageSeconds,
   Thumbnail,
+  TruthErrors,
   WeightHashes,
 } from "./generated.js";
 
