@@ -74,43 +74,6 @@ async function kept() {
   await tab.waitForSelector("#offline-words:has-text('works without a network')");
 }
 
-/** Puts another version on the server, for which the browser looks now rather than some time after a visit. @param {string} title */
-async function newBuild(title) {
-  // What a window finds waiting when it begins, it takes at once.
-  await kept();
-  await host.build(title);
-  await tab.evaluate(async () => {
-    const registration = await navigator.serviceWorker.ready;
-    // The browser looks by itself after a visit, too. A look that has begun by then answers for this one, though it may have
-    // read the version before.
-    const found = () => registration.installing ?? registration.waiting;
-    for (let looks = 0; looks < 50 && !found(); looks++) await registration.update();
-    if (!found()) throw new Error("the browser finds no new version");
-  });
-}
-
-test("a new version is told of while nothing is lost, and versions are not mixed", async () => {
-  await tab.reload();
-  await page.ready();
-  await newBuild("Second");
-  await tab.waitForSelector("#version:visible");
-  assert.equal(await tab.title(), "Normalight");
-  assert.equal(await tab.textContent("#version-words"), "A new version is here: reload to use it.");
-  // Photographs on the bench would be lost.
-  await page.upload(AVIF_BALLS);
-  await tab.waitForSelector("#version", { state: "hidden" });
-  await page.thumbnails(AVIF_BALLS.length);
-  await tab.click("#clear");
-  await tab.waitForSelector("#version:visible");
-
-  const second = await tab.context().newPage();
-  await second.goto(host.address);
-  assert.equal(await second.title(), "Normalight", "a second window mixes versions");
-  await tab.click("#version-reload");
-  await tab.waitForSelector("#version-words:has-text('Other windows still use the one before')");
-  await second.close();
-});
-
 test("it can be installed", async () => {
   const session = await tab.context().newCDPSession(tab);
   const { installabilityErrors } = await session.send("Page.getInstallabilityErrors");
