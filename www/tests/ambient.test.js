@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { greyPng } from "./support/files.js";
-import { Page } from "./support/page.js";
+import { quickPage } from "./support/page.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
 
@@ -14,17 +14,8 @@ const capture = [
   greyPng("004.png", 48, 48, 200, "both"),
   greyPng("005.png", 48, 48, 120, "x"),
 ];
-/** @type {Page} */
-let page;
-/** @type {import("playwright-core").Page} */
-let tab;
-
-before(async () => {
-  page = await Page.open({ webgpu: false });
-  tab = page.page;
-  await page.quick();
-});
-after(() => page.close());
+const page = await quickPage();
+const tab = page.page;
 
 /** The plan of a run, which must succeed. */
 async function plan() {

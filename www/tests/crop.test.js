@@ -1,23 +1,14 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { AVIF_BALLS } from "./support/avif.js";
 import { complaints } from "./support/axe.js";
-import { greyPng } from "./support/files.js";
-import { Page } from "./support/page.js";
+import { greyMapMask, greyPng } from "./support/files.js";
+import { quickPage } from "./support/page.js";
 
 /** The photographs' side. */
 const SIDE = 64;
-/** @type {Page} */
-let page;
-/** @type {import("playwright-core").Page} */
-let tab;
-
-before(async () => {
-  page = await Page.open({ webgpu: false });
-  tab = page.page;
-  await page.quick();
-});
-after(() => page.close());
+const page = await quickPage();
+const tab = page.page;
 
 /** Whether a pixel lies in the mask: a shape without symmetry. @param {number} x @param {number} y */
 const inside = (x, y) => x > 8 && x < 56 && y > 8 && y < 50 && 2 * y > x;
@@ -30,14 +21,8 @@ function pixelsIn(left, top, width, height) {
   return count;
 }
 
-/** A mask of the whole frame, of a format that browsers do not decode. */
-const mask = {
-  name: "mask.pgm",
-  bytes: Buffer.concat([
-    Buffer.from(`P5 ${SIDE} ${SIDE} 255\n`),
-    Uint8Array.from({ length: SIDE * SIDE }, (_, at) => (inside(at % SIDE, Math.floor(at / SIDE)) ? 255 : 0)),
-  ]),
-};
+/** A mask of the whole frame. */
+const mask = greyMapMask(SIDE, inside);
 
 /** What the editor says. */
 const words = () => tab.textContent(".crop-editor .mask-words");

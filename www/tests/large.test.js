@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { greyPng, hugePng, squareMask } from "./support/files.js";
-import { Page } from "./support/page.js";
+import { quickPage } from "./support/page.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
 
@@ -12,17 +12,8 @@ const large = [
   greyPng("002.png", SIDE, SIDE, 200, "y"),
   greyPng("003.png", SIDE, SIDE, 200, "both"),
 ];
-/** @type {Page} */
-let page;
-/** @type {import("playwright-core").Page} */
-let tab;
-
-before(async () => {
-  page = await Page.open({ webgpu: false });
-  tab = page.page;
-  await page.quick();
-});
-after(() => page.close());
+const page = await quickPage();
+const tab = page.page;
 
 test("what large photographs cost is said, and they are taken at a quarter of their size", async () => {
   await page.upload([...large, squareMask(SIDE / 4, 24)]);

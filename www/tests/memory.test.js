@@ -1,21 +1,12 @@
 // What the page costs those who leave it open.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { Memory } from "./support/memory.js";
-import { Page } from "./support/page.js";
+import { quickPage } from "./support/page.js";
 import { tiffPages } from "./support/tiff.js";
 
-/** @type {Page} */
-let page;
-/** @type {import("playwright-core").Page} */
-let tab;
-
-before(async () => {
-  page = await Page.open({ webgpu: false });
-  tab = page.page;
-  await page.quick();
-});
-after(() => page.close());
+const page = await quickPage();
+const tab = page.page;
 
 test("ten estimates hold no more memory than one", async () => {
   const memory = await Memory.of(tab);

@@ -42,7 +42,7 @@ async function wholeEstimate() {
 }
 
 test("after the first visit a whole estimate works without the server, and asks no other one", async () => {
-  await kept();
+  await tab.waitForSelector("#offline-words:has-text('works without a network')");
   host.down = true;
   host.asked = 0;
   await tab.reload();
@@ -68,11 +68,6 @@ test("the page's policy refuses requests to elsewhere", async () => {
   assert.equal(other.asked, 0);
   other.close();
 });
-
-/** Waits until the page says so; it listens for other versions by then. */
-async function kept() {
-  await tab.waitForSelector("#offline-words:has-text('works without a network')");
-}
 
 test("it can be installed", async () => {
   const session = await tab.context().newCDPSession(tab);

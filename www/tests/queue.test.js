@@ -1,26 +1,17 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { unzipSync } from "fflate";
 import { AVIF_BALLS } from "./support/avif.js";
 import { complaints } from "./support/axe.js";
 import { drop } from "./support/drop.js";
 import { greyPng, zipOf } from "./support/files.js";
-import { Page } from "./support/page.js";
+import { quickPage } from "./support/page.js";
 
 /** @typedef {import("./support/files.js").TestFile} TestFile */
 
-/** @type {Page} */
-let page;
-/** @type {import("playwright-core").Page} */
-let tab;
-
-before(async () => {
-  page = await Page.open({ webgpu: false });
-  tab = page.page;
-  await page.quick();
-});
-after(() => page.close());
+const page = await quickPage();
+const tab = page.page;
 
 /** Files in a folder. @param {string} folder @param {TestFile[]} files */
 const inFolder = (folder, files) => files.map(({ name, bytes }) => ({ name: `${folder}/${name}`, bytes }));

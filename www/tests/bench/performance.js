@@ -1,21 +1,12 @@
 // How long the page keeps people waiting, in processor time: `npm run bench --workspace www`.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { greyPng, squareMask } from "../support/files.js";
-import { Page } from "../support/page.js";
+import { quickPage } from "../support/page.js";
 import { FRAME, LONGEST, traced } from "../support/tasks.js";
 
-/** @type {Page} */
-let page;
-/** @type {import("playwright-core").Page} */
-let tab;
-
-before(async () => {
-  page = await Page.open({ webgpu: false });
-  tab = page.page;
-  await page.quick();
-});
-after(() => page.close());
+const page = await quickPage();
+const tab = page.page;
 
 test("no task stops the page while it estimates and shows a megapixel, and frames are drawn quickly", async (t) => {
   const side = 1024;

@@ -94,16 +94,21 @@ export function greyPng(name, width, height, value, lit) {
 }
 
 /**
- * A mask with a square in its middle, as a portable grey map.
- * @param {number} side @param {number} reach from the middle to a side of the square
+ * A mask as a portable grey map, a format that browsers do not decode.
+ * @param {number} side @param {(x: number, y: number) => boolean} inside
  * @returns {TestFile}
  */
-export function squareMask(side, reach) {
-  const pixels = Uint8Array.from({ length: side * side }, (_, at) => {
-    const [x, y] = [at % side, Math.floor(at / side)];
-    return Math.max(Math.abs(x - side / 2), Math.abs(y - side / 2)) < reach ? 255 : 0;
-  });
+export function greyMapMask(side, inside) {
+  const pixels = Uint8Array.from({ length: side * side }, (_, at) =>
+    inside(at % side, Math.floor(at / side)) ? 255 : 0,
+  );
   return { name: "mask.pgm", bytes: Buffer.concat([Buffer.from(`P5 ${side} ${side} 255\n`), pixels]) };
+}
+
+/** A mask with a square in its middle. @param {number} side @param {number} reach from the middle to a side of the square */
+export function squareMask(side, reach) {
+  const far = (/** @type {number} */ at) => Math.abs(at - side / 2);
+  return greyMapMask(side, (x, y) => Math.max(far(x), far(y)) < reach);
 }
 
 /**

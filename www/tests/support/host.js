@@ -5,7 +5,7 @@ import { typeOf } from "../../../web/test/support/server.js";
 
 const BUILD = fileURLToPath(new URL("../../dist/", import.meta.url));
 
-/** A plain server with the built page in one of its folders, which can go away and get another build. */
+/** A plain server with the built page in one of its folders, which can go away. */
 export class Host {
   /** Whether there is no answer. */
   down = false;

@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
+import { after } from "node:test";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
@@ -25,6 +26,14 @@ export async function serveBuild() {
     preview: { host: "127.0.0.1", port: 0, strictPort: false },
   });
   return { address: server.resolvedUrls?.local[0] ?? "", close: () => server.close() };
+}
+
+/** The page for the tests of a file, set to estimate as quick as can be on the processor; closed after them. */
+export async function quickPage() {
+  const page = await Page.open({ webgpu: false });
+  after(() => page.close());
+  await page.quick();
+  return page;
 }
 
 /** The page in a browser of its own; whatever reaches the browser's console fails the test. */
