@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// Name of the hidden folder in the output.
@@ -12,6 +14,12 @@ pub(crate) const WORK: &str = ".batch-work";
 
 /// What the file has after the name of a shard that is locked while a batch is at work on it.
 const LOCK: &str = ".lock";
+
+/// How long somebody else has to hold a lock before that batch counts as being at work.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// How often is looked at a lock that somebody holds.
+const LOOK: Duration = Duration::from_millis(10);
 
 /// One shard of an output, held by this batch until it is dropped; what was being made goes with it.
 #[derive(Debug)]
@@ -155,15 +163,22 @@ fn names(base: &Path) -> Vec<String> {
 }
 
 /// Tries to lock a file.
+///
+/// A batch that was killed while it started a job leaves its lock to that job until the program of the job is loaded, so a lock
+/// counts as held only after [`PATIENCE`].
 fn held(file: &File) -> io::Result<Held> {
-    match file.try_lock() {
-        Ok(()) => Ok(Held::No),
-        Err(TryLockError::WouldBlock) => Ok(Held::Yes),
-        // Some network drives know no locks.
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-            Ok(Held::Unknown)
+    let start = Instant::now();
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(Held::No),
+            Err(TryLockError::WouldBlock) if start.elapsed() < PATIENCE => thread::sleep(LOOK),
+            Err(TryLockError::WouldBlock) => return Ok(Held::Yes),
+            // Some network drives know no locks.
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                return Ok(Held::Unknown);
+            }
+            Err(TryLockError::Error(error)) => return Err(error),
         }
-        Err(TryLockError::Error(error)) => Err(error),
     }
 }
 

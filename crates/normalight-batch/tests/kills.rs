@@ -4,8 +4,9 @@ mod common;
 
 use common::{ESTIMATE, Place, RUN, outcomes, timeless};
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::thread;
 use std::time::Instant;
 
@@ -55,6 +56,7 @@ fn after_fifty_kills_one_more_call_makes_everything_complete_and_equal() {
 
     let place = thirty();
     let (mut state, mut killed, mut tries, mut records) = (7, 0, 0, 0);
+    let said = tempfile::NamedTempFile::new().unwrap();
     while killed < 50 {
         tries += 1;
         assert!(
@@ -66,13 +68,17 @@ fn after_fifty_kills_one_more_call_makes_everything_complete_and_equal() {
             .arg(place.output())
             .args([ESTIMATE, "3", "1/1"])
             .args(settings[tries % 2])
-            .stdout(Stdio::null())
+            .stdout(File::create(said.path()).unwrap())
             .spawn()
             .unwrap();
         thread::sleep(usual.mul_f64(0.6 * next(&mut state)));
         match batch.try_wait().unwrap() {
             None => killed += 1,
-            Some(status) => assert!(status.success()),
+            Some(status) => assert!(
+                status.success(),
+                "{}",
+                std::fs::read_to_string(&said).unwrap()
+            ),
         }
         let _ = batch.kill();
         batch.wait().unwrap();

@@ -8,6 +8,9 @@ use crate::{ColorMode, IoError, ReadOptions, StackInput};
 use normalight_core::{Light, NormalMap};
 use std::path::{Path, PathBuf};
 
+/// The file of an object's true normals.
+const TRUTH: &str = "Normal_gt.mat";
+
 /// One object of the benchmark.
 #[derive(Debug, Clone)]
 pub struct DiligentObject {
@@ -50,7 +53,7 @@ pub fn list_diligent_objects(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
 }
 
 fn is_object(folder: &Path) -> bool {
-    folder.join("Normal_gt.mat").is_file()
+    folder.join(TRUTH).is_file()
 }
 
 fn objects_in(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
@@ -81,15 +84,22 @@ pub fn read_diligent_object(
         color: ColorMode::Linear,
         ..ReadOptions::default()
     };
-    let input = read_paths(&[folder.to_owned()], &options)?;
+    let mut input = read_paths(&[folder.to_owned()], &options)?;
     // Without their intensities the lights are no truth.
     let intensities = folder.join("light_intensities.txt");
     std::fs::metadata(&intensities).map_err(|reason| read_error(&intensities, reason))?;
     let lights = input.read_lights_path(&folder.join("light_directions.txt"))?;
-    let truth = folder.join("Normal_gt.mat");
-    let (width, height) = (input.stack.width(), input.stack.height());
-    let bytes = read_file(&truth, MAX_FILE_BYTES)?;
-    let normals = read_truth(&display(&truth), &bytes, (width, height))?;
+    let found = input.truth.take();
+    let normals = match found.filter(|truth| truth.file == TRUTH) {
+        Some(truth) => truth.normals,
+        // Missing or wrong, which was only a notice beside photographs.
+        None => {
+            let truth = folder.join(TRUTH);
+            let bytes = read_file(&truth, MAX_FILE_BYTES)?;
+            let size = (input.stack.width(), input.stack.height());
+            read_truth(&display(&truth), &bytes, size)?
+        }
+    };
     let folder_name = file_name(&folder.canonicalize().unwrap_or_else(|_| folder.to_owned()));
     let name = folder_name.strip_suffix("PNG").unwrap_or(&folder_name);
     Ok(DiligentObject {
