@@ -4,6 +4,8 @@ import { towards, type Vector } from "./vector.js";
 
 /** Side of the pictures in pixels. */
 const SIDE = 300;
+/** Least milliseconds from one drawing to the next. */
+const PAUSE = 30;
 /** Lamps on the map, whose places the moving lamp passes. */
 const LAMPS = 14;
 
@@ -14,7 +16,7 @@ export class Intro {
   readonly #lights = byId<HTMLCanvasElement>("intro-lights");
   readonly #surface = shell();
   #pointer: readonly [number, number] | undefined;
-  /** The next drawing, while the lamp moves by itself. */
+  /** The pause before the next drawing, while the lamp moves by itself. */
   #next: number | undefined;
 
   constructor() {
@@ -34,20 +36,26 @@ export class Intro {
 
   /** Whether the lamp rests: once there are photographs, the processor is wanted for them. */
   rest(resting: boolean): void {
-    if (this.#next !== undefined) cancelAnimationFrame(this.#next);
-    const moving = !resting && !matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.#next = moving ? requestAnimationFrame(this.#step) : undefined;
+    clearTimeout(this.#next);
+    this.#next = undefined;
+    if (!resting && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.#goOn(PAUSE);
   }
 
   hide(): void {
     this.#section.hidden = true;
   }
 
-  readonly #step = (time: number) => {
-    if (this.#section.hidden) return;
-    this.#draw(time / 1000);
-    this.#next = requestAnimationFrame(this.#step);
-  };
+  /** Draws after a pause, and so on; twice as long a pause as the drawing takes, since a browser that only draws puts off the rest. */
+  #goOn(pause: number): void {
+    this.#next = setTimeout(() => {
+      const start = performance.now();
+      requestAnimationFrame((time) => {
+        if (this.#section.hidden || this.#next === undefined) return;
+        this.#draw(time / 1000);
+        this.#goOn(Math.max(PAUSE, 2 * (performance.now() - start)));
+      });
+    }, pause);
+  }
 
   #draw(seconds: number): void {
     const lamp = this.#pointer ? towards(...this.#pointer) : path(seconds);

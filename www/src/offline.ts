@@ -41,10 +41,9 @@ export class Offline {
     const { serviceWorker } = navigator;
     serviceWorker.addEventListener("message", ({ data }) => this.#hear(data as Answered));
     // The first visit is taken over, too, and goes on.
-    if (serviceWorker.controller)
-      serviceWorker.addEventListener("controllerchange", () => {
-        if (this.#waiting) location.reload();
-      });
+    serviceWorker.addEventListener("controllerchange", () => {
+      if (this.#waiting) location.reload();
+    });
     this.#found(registration.waiting);
     // This window was reloaded while a version waited: nothing has begun yet, so that one is wished.
     if (this.#waiting && this.#free()) this.#ask("take over");

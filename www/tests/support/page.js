@@ -9,7 +9,8 @@ import { preview } from "vite";
 const PATIENCE = 120_000;
 const PATIENCE_GPU = 480_000;
 
-const QUIET = [
+/** A browser that does nothing by itself. */
+export const QUIET = [
   "--no-sandbox",
   "--disable-quic",
   "--no-first-run",
