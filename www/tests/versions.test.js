@@ -34,7 +34,7 @@ after(async () => {
 /** A window with the page. */
 async function open() {
   const page = await browser.newPage();
-  page.setDefaultTimeout(60_000);
+  page.setDefaultTimeout(120_000);
   await page.goto(host.address);
   return page;
 }
