@@ -1,0 +1,2 @@
+/** All words of the page in English; other languages have the same shape. */
+export const en = {};
