@@ -1,5 +1,7 @@
 import { wordsOf } from "../dom.js";
 import type { Outcome } from "../result.js";
+import { fixed } from "../texts/numbers.js";
+import { texts } from "../texts/texts.js";
 import { type Bench, type KeptOutcome, type KeptStack, LARGEST, type Part } from "./bench.js";
 import { largeBytes, pack } from "./pack.js";
 import { room, type SessionStore } from "./store.js";
@@ -16,6 +18,8 @@ export class SessionKeeper {
   #time = 0;
   #stack: readonly string[] = [];
   #outcome: readonly string[] = [];
+  /** The result that is kept. */
+  #shown: Outcome | undefined;
   #saving: Promise<void> | undefined;
   /** Why this stack is not kept. */
   #failed = false;
@@ -36,6 +40,14 @@ export class SessionKeeper {
     this.#saving ??= this.#save().finally(() => {
       this.#saving = undefined;
     });
+  }
+
+  /** Waits until everything is written; whether all that is on the bench is kept then. */
+  async settled(): Promise<boolean> {
+    while (this.#saving) await this.#saving;
+    const { files, outcome } = this.bench();
+    const stack = files.every((file) => this.#names.has(file));
+    return stack && (outcome === undefined || outcome === this.#shown);
   }
 
   /** What was read from the browser is on the bench now, and its files need not be written again. */
@@ -65,12 +77,13 @@ export class SessionKeeper {
     const other = !files.some((file) => this.#names.has(file));
     if (other && this.#names.size + files.length > 0) {
       if (!this.store.owned) {
-        this.tell("Another window's photographs are kept for a reload, not these.");
+        this.tell(texts.session.otherWindow);
         return;
       }
       // Another stack, or none: nothing of the last one stays.
       this.#names.clear();
       [this.#stack, this.#outcome, this.#failed] = [[], [], false];
+      this.#shown = undefined;
       this.#time = Date.now();
       this.tell("");
       await this.store.clear();
@@ -92,8 +105,7 @@ export class SessionKeeper {
     const missing = files.filter((file) => !this.#names.has(file));
     const needed = missing.reduce((sum, { size }) => sum + size, 0);
     const free = await room();
-    if (needed > free)
-      throw new Error(`they have ${gigabytes(needed)}, and this browser takes ${gigabytes(free)} more`);
+    if (needed > free) throw new Error(texts.session.tooLarge(gigabytes(needed), gigabytes(free)));
     for (const file of missing) {
       // Other files came meanwhile: they are next.
       if (this.#changed.has("stack")) return false;
@@ -109,7 +121,7 @@ export class SessionKeeper {
       files: this.#stack,
     } satisfies KeptStack);
     await this.#deleteOthers();
-    this.tell("Kept on this device for a reload, until you clear them or take others.");
+    this.tell(texts.session.kept);
     return true;
   }
 
@@ -121,6 +133,7 @@ export class SessionKeeper {
 
   async #writeOutcome(): Promise<void> {
     const { outcome } = this.bench();
+    this.#shown = undefined;
     const most = Math.min(LARGEST, await room());
     if (!outcome || !this.#holds(outcome) || largeBytes(outcome.estimate) > most) {
       this.#outcome = [];
@@ -134,6 +147,7 @@ export class SessionKeeper {
     const parts = { files: this.#partsOf(files), used: this.#partsOf(used) };
     this.#outcome = [...parts.files, ...parts.used];
     await this.store.set("outcome", { name, format, size, taken, estimate, ...parts } satisfies KeptOutcome);
+    this.#shown = outcome;
     await this.#deleteOthers();
   }
 
@@ -161,7 +175,8 @@ export class SessionKeeper {
   async #giveUp(error: unknown): Promise<void> {
     this.#failed = true;
     this.#names.clear();
-    this.tell(`These photographs are not kept for a reload: ${reason(error)}.`);
+    this.#shown = undefined;
+    this.tell(texts.session.notKept(reason(error)));
     await this.store.clear().catch(() => undefined);
   }
 
@@ -171,11 +186,10 @@ export class SessionKeeper {
 }
 
 function reason(error: unknown): string {
-  if (error instanceof DOMException && error.name === "QuotaExceededError")
-    return "this browser has no room left";
+  if (error instanceof DOMException && error.name === "QuotaExceededError") return texts.session.full;
   return wordsOf(error).replace(/\.$/, "");
 }
 
 function gigabytes(bytes: number): string {
-  return bytes < 1e9 ? `${Math.max(Math.round(bytes / 1e6), 0)} MB` : `${(bytes / 1e9).toFixed(1)} GB`;
+  return bytes < 1e9 ? `${Math.max(Math.round(bytes / 1e6), 0)} MB` : `${fixed(bytes / 1e9, 1)} GB`;
 }
