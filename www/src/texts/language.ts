@@ -21,6 +21,8 @@ function kept(): string | null {
 
 /** The language of the page: the user's choice, or the first of the browser's that the page knows. */
 function find(): Language {
+  // The build, and tests of single modules, have no page.
+  if (typeof document === "undefined") return "en";
   const chosen = kept();
   if (isLanguage(chosen)) return chosen;
   const known = navigator.languages.map((name) => name.slice(0, 2).toLowerCase()).find(isLanguage);

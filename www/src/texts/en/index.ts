@@ -1,2 +1,22 @@
+import { crop } from "./crop.js";
+import { directions } from "./directions.js";
+import { lights } from "./lights.js";
+import { mask } from "./mask.js";
+import { out } from "./out.js";
+import { queue } from "./queue.js";
+import { relight } from "./relight.js";
+import { solid } from "./solid.js";
+import { viewer } from "./viewer.js";
+
 /** All words of the page in English; other languages have the same shape. */
-export const en = {};
+export const en = {
+  crop,
+  directions,
+  lights,
+  mask,
+  out,
+  queue,
+  relight,
+  solid,
+  viewer,
+};
