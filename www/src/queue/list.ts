@@ -1,4 +1,5 @@
 import { byId, make, say } from "../dom.js";
+import { texts } from "../texts/texts.js";
 
 /** How far a stack is. */
 export type State = "waiting" | "now" | "done" | "failed" | "cancelled";
@@ -23,7 +24,7 @@ export class QueueList {
     this.#buttons = [];
     this.#section.hidden = false;
     this.#list.replaceChildren(
-      ...names.map((name) => make("li", "", make("b", "", name), make("span", "", "waiting"))),
+      ...names.map((name) => make("li", "", make("b", "", name), make("span", "", texts.queue.waiting))),
     );
     this.#zip.disabled = true;
     this.#forget.disabled = true;
@@ -43,7 +44,7 @@ export class QueueList {
     }
     const button = make("button", "", name);
     button.type = "button";
-    button.title = "Shows this result";
+    button.title = texts.queue.show;
     button.setAttribute("aria-pressed", "false");
     button.addEventListener("click", () => this.asked.show(index));
     this.#buttons[index] = button;

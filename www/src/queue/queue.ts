@@ -5,6 +5,7 @@ import { type Done, type Job, total } from "../job.js";
 import type { Format } from "../maps.js";
 import type { Outcome } from "../result.js";
 import type { Run } from "../run.js";
+import { texts } from "../texts/texts.js";
 import { jobOf, type Makings } from "./job.js";
 import { QueueList } from "./list.js";
 import { Results } from "./results.js";
@@ -56,11 +57,7 @@ export class Queue {
         await this.#estimate(index, () => make(capture), signal);
     });
     this.#list.end();
-    const seconds = ((performance.now() - began) / 1000).toFixed(0);
-    const cancelled = captures.length - this.#done.length - this.#failed;
-    run.tell(
-      `${this.#words()} in ${seconds} s.${cancelled > 0 ? " Cancelled; what is finished is kept." : ""}`,
-    );
+    run.tell(texts.queue.end(...this.#counts, (performance.now() - began) / 1000));
     const [first] = this.#done;
     if (first !== undefined && this.#wanted === undefined) await this.#show(first);
   }
@@ -87,8 +84,8 @@ export class Queue {
     const { run } = this.#page;
     try {
       signal.throwIfAborted();
-      this.#list.tell(index, "now", "is estimated now");
-      const which = `Stack ${index + 1} of ${this.#captures.length}, ${folder}`;
+      this.#list.tell(index, "now", texts.queue.now);
+      const which = texts.queue.stack(index + 1, this.#captures.length, folder);
       const [job, done] = await run.follow(make, signal, which);
       const outcome = { ...done, files: job.files, name: folder, format: this.#page.format() };
       const kept = await this.#results.keep(index, outcome);
@@ -97,22 +94,19 @@ export class Queue {
       this.#list.tell(index, "done", doneWords(done));
     } catch (error) {
       if (!signal.aborted) this.#failed += 1;
-      if (signal.aborted) this.#list.tell(index, "cancelled", "not estimated: cancelled");
-      else this.#list.tell(index, "failed", `failed: ${wordsOf(error)}`);
+      if (signal.aborted) this.#list.tell(index, "cancelled", texts.queue.cancelled);
+      else this.#list.tell(index, "failed", texts.queue.failed(wordsOf(error)));
     }
     this.#tell();
   }
 
-  #words(): string {
-    const failed = this.#failed > 0 ? `, ${this.#failed} failed` : "";
-    return `${this.#done.length} of ${this.#captures.length} stacks done${failed}`;
+  /** How many are done, of how many, and how many failed. */
+  get #counts(): [number, number, number] {
+    return [this.#done.length, this.#captures.length, this.#failed];
   }
 
   #tell(): void {
-    const where = this.#inMemory
-      ? "This browser has no room for results, so they are in this page's memory until it is closed."
-      : "Results are kept on this device until this page is closed.";
-    this.#list.say(`${this.#words()}. ${where}`);
+    this.#list.say(texts.queue[this.#inMemory ? "inMemory" : "sofar"](...this.#counts));
   }
 
   async #show(index: number): Promise<void> {
@@ -163,6 +157,5 @@ export class Queue {
 
 function doneWords({ estimate, size }: Done): string {
   const { width, height, lights } = estimate;
-  const how = size && `, ${size}`;
-  return `${lights.length} photographs of ${width} × ${height} pixels${how}; ${total(estimate).toFixed(1)} s`;
+  return texts.queue.done(lights.length, width, height, size, total(estimate));
 }

@@ -1,6 +1,7 @@
 import { createStore, delMany, get, keys, set } from "idb-keyval";
 import type { Outcome } from "../result.js";
 import { pack, unpack } from "../session/pack.js";
+import { texts } from "../texts/texts.js";
 
 /** Where results of queues lie in this browser, by a name of their window and their number. */
 const stored = createStore("normalight.queue", "results");
@@ -48,10 +49,10 @@ export class Results {
   /** A result that was kept. */
   async read(index: number): Promise<Outcome> {
     const held = this.#held.get(index);
-    if (!held) throw new Error("This result is not kept.");
+    if (!held) throw new Error(texts.queue.notKept);
     if ("outcome" in held) return held.outcome;
     const kept = await get<Stored>(this.#key(index), stored);
-    if (!kept) throw new Error("The browser has deleted this result.");
+    if (!kept) throw new Error(texts.queue.deleted);
     const own = held.light.used[Symbol.iterator]();
     const used = kept.made.flatMap((file) => file ?? own.next().value ?? []);
     return { ...held.light, used, estimate: (await unpack(kept.estimate)) as Outcome["estimate"] };

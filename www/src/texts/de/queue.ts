@@ -1,0 +1,26 @@
+import type { queue as English } from "../en/queue.js";
+import { fixed } from "../numbers.js";
+
+const done = (done: number, of: number, failed: number) =>
+  `${done} von ${of} Sätzen fertig${failed > 0 ? `, ${failed} gescheitert` : ""}`;
+
+export const queue: typeof English = {
+  waiting: "wartet",
+  now: "wird gerade geschätzt",
+  cancelled: "nicht geschätzt: abgebrochen",
+  failed: (why) => `gescheitert: ${why}`,
+  done: (photographs, width, height, how, seconds) =>
+    `${photographs} Fotos mit ${width} × ${height} Pixeln${how && `, ${how}`}; ${fixed(seconds, 1)} s`,
+  show: "Zeigt dieses Ergebnis",
+  stack: (number, of, name) => `Satz ${number} von ${of}, ${name}`,
+  sofar: (finished, of, failed) =>
+    `${done(finished, of, failed)}. Die Ergebnisse bleiben auf diesem Gerät, bis diese Seite geschlossen wird.`,
+  inMemory: (finished, of, failed) =>
+    `${done(finished, of, failed)}. Dieser Browser hat keinen Platz für Ergebnisse; sie bleiben im Speicher dieser Seite, bis sie geschlossen wird.`,
+  end: (finished, of, failed, seconds) => {
+    const cancelled = finished + failed < of ? " Abgebrochen; was fertig ist, bleibt." : "";
+    return `${done(finished, of, failed)} in ${fixed(seconds, 0)} s.${cancelled}`;
+  },
+  notKept: "Dieses Ergebnis wurde nicht behalten.",
+  deleted: "Der Browser hat dieses Ergebnis gelöscht.",
+};
