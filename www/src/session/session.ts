@@ -1,4 +1,4 @@
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError } from "../dom.js";
 import type { Hand } from "../lights/hand.js";
 import type { Outcome } from "../result.js";
 import type { KeptSettings } from "../settings.js";
@@ -81,7 +81,7 @@ export class Session {
     try {
       await this.#store.clear();
     } catch (error) {
-      say(this.#problem, texts.session.stillKept(wordsOf(error)));
+      sayError(this.#problem, error, texts.session.stillKept);
     }
   }
 
@@ -115,7 +115,7 @@ export class Session {
       this.#page.restore({ ...kept, settings, outcome: shown, hand });
       say(this.#problem, "");
     } catch (error) {
-      say(this.#problem, texts.session.unread(wordsOf(error)));
+      sayError(this.#problem, error, texts.session.unread);
     }
   }
 
