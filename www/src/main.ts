@@ -143,7 +143,15 @@ function take(files: File[]): void {
   folders.forget();
   replace(files);
 }
-const queue = new Queue({ engine, settings, size, run, format, show: showOf });
+const queue = new Queue({
+  engine,
+  settings,
+  size,
+  run,
+  format,
+  show: showOf,
+  changed: () => session.changed("queue"),
+});
 const folders = new FolderChoice(take, (captures, own) => void queue.start(captures, own));
 
 /** Shows a result of the queue, and puts its stack on the bench. */
@@ -184,8 +192,11 @@ const session = new Session({
     settings: settings.kept,
     outcome,
     hand: hand.held,
+    queue: queue.kept,
   }),
   restore,
+  keptQueue: (term) => queue.keptFor(term),
+  cleared: () => queue.sweep(),
 });
 
 /** Puts the session that was kept on the bench. */
@@ -204,6 +215,7 @@ function restore(bench: Bench): void {
     // Their result was too large to be kept: the next one begins with them.
     settings.handLights(new File([toCsv(bench.hand.lights)], "lights.csv", { type: "text/csv" }));
   }
+  if (bench.queue) queue.restore(bench.queue, bench.outcome);
 }
 
 // Nothing is lost with an empty bench.

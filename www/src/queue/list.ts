@@ -1,8 +1,7 @@
 import { byId, make, say } from "../dom.js";
+import { takenWords } from "../large/taken.js";
 import { texts } from "../texts/texts.js";
-
-/** How far a stack is. */
-export type State = "waiting" | "now" | "done" | "failed" | "cancelled";
+import type { State } from "./state.js";
 
 /** The stacks of a queue as people see them. */
 export class QueueList {
@@ -24,7 +23,9 @@ export class QueueList {
     this.#buttons = [];
     this.#section.hidden = false;
     this.#list.replaceChildren(
-      ...names.map((name) => make("li", "", make("b", "", name), make("span", "", texts.queue.waiting))),
+      ...names.map((name) =>
+        make("li", "", make("b", "", name), make("span", "", stateWords({ kind: "waiting" }))),
+      ),
     );
     this.#zip.disabled = true;
     this.#forget.disabled = true;
@@ -32,13 +33,13 @@ export class QueueList {
   }
 
   /** Says how far a stack is. */
-  tell(index: number, state: State, words: string): void {
+  tell(index: number, state: State): void {
     const item = this.#list.children[index];
     if (!(item instanceof HTMLElement)) return;
-    item.dataset.state = state;
+    item.dataset.state = state.kind;
     const name = item.firstElementChild?.textContent ?? "";
-    const said = make("span", "", words);
-    if (state !== "done") {
+    const said = make("span", "", stateWords(state));
+    if (state.kind !== "done") {
       item.replaceChildren(make("b", "", name), said);
       return;
     }
@@ -82,4 +83,11 @@ export class QueueList {
     this.#section.hidden = true;
     this.#list.replaceChildren();
   }
+}
+
+function stateWords(state: State): string {
+  if (state.kind === "failed") return texts.queue.failed(state.why);
+  if (state.kind !== "done") return texts.queue.states[state.kind];
+  const { photographs, width, height, seconds, taken } = state.facts;
+  return texts.queue.done(photographs, width, height, takenWords(taken), seconds);
 }

@@ -1,8 +1,9 @@
 import { byId, say, wordsOf } from "../dom.js";
 import type { Hand } from "../lights/hand.js";
+import type { Term } from "../queue/state.js";
 import type { Outcome } from "../result.js";
 import type { KeptSettings } from "../settings.js";
-import type { Bench, KeptOutcome, KeptStack, Part } from "./bench.js";
+import type { Bench, KeptOutcome, KeptStack, Part, StoredQueue } from "./bench.js";
 import { SessionKeeper } from "./keeper.js";
 import { unpack } from "./pack.js";
 import { SessionStore } from "./store.js";
@@ -12,19 +13,29 @@ export interface SessionPage {
   bench(): Bench;
   /** Puts what was kept on the bench. */
   restore(bench: Bench): void;
+  /** For how long the queue is kept. */
+  keptQueue(term: Exclude<Term, "memory">): void;
+  /** Nothing of the last session is kept any more. */
+  cleared(): void;
 }
 
 /** The session of this browser: what is on the bench is kept, and offered after a reload or a crash. */
 export class Session {
   readonly #page: SessionPage;
-  readonly #store = new SessionStore();
+  readonly #store: SessionStore;
   readonly #keeper: SessionKeeper;
   readonly #offer = byId("session");
   readonly #problem = byId("session-problem");
 
   constructor(page: SessionPage) {
     this.#page = page;
-    this.#keeper = new SessionKeeper(this.#store, page.bench, (words) => say(byId("stack-kept"), words));
+    this.#store = new SessionStore(page.cleared);
+    this.#keeper = new SessionKeeper(
+      this.#store,
+      page.bench,
+      (words) => say(byId("stack-kept"), words),
+      page.keptQueue,
+    );
     byId("session-forget").addEventListener("click", () => void this.#forget());
     byId("session-restore").addEventListener("click", () => void this.#restore());
     void this.#store.granted.then(() => this.#find());
@@ -73,14 +84,16 @@ export class Session {
   async #restore(): Promise<void> {
     this.#leave();
     try {
-      const [stack, settings, outcome, hand] = (await this.#store.getMany<unknown>([
+      const [stack, settings, outcome, hand, queue] = (await this.#store.getMany<unknown>([
         "stack",
         "settings",
         "outcome",
         "hand",
-      ])) as [KeptStack, KeptSettings, KeptOutcome | undefined, Hand | undefined];
+        "queue",
+      ])) as [KeptStack, KeptSettings, KeptOutcome | undefined, Hand | undefined, StoredQueue | undefined];
       const ofOutcome = [...(outcome?.files ?? []), ...(outcome?.used ?? [])];
-      const files = await this.#files([...new Set([...stack.files, ...ofOutcome])]);
+      const ofQueue = queue?.stacks.flatMap(({ result }) => result?.files ?? []) ?? [];
+      const files = await this.#files([...new Set([...stack.files, ...ofOutcome, ...ofQueue])]);
       const listed = (parts: readonly string[]) => parts.flatMap((part) => files.get(part) ?? []);
       const { name, photographs, crop } = stack;
       const shown = outcome && {
@@ -89,11 +102,21 @@ export class Session {
         files: listed(outcome.files),
         used: listed(outcome.used),
       };
+      const stacks = queue?.stacks.map(({ result, ...one }) => ({
+        ...one,
+        result: result && { ...result, files: listed(result.files), used: listed(result.used) },
+      }));
       // Other files were taken meanwhile: those count.
       if (this.#page.bench().files.length > 0) return;
-      this.#keeper.adopt(stack, ofOutcome, files);
+      this.#keeper.adopt(stack, ofOutcome, ofQueue, files);
       const kept = { name, photographs, files: listed(stack.files), crop };
-      this.#page.restore({ ...kept, settings, outcome: shown, hand });
+      this.#page.restore({
+        ...kept,
+        settings,
+        outcome: shown,
+        hand,
+        queue: queue && stacks && { ...queue, stacks },
+      });
       say(this.#problem, "");
     } catch (error) {
       say(this.#problem, `What was kept cannot be read: ${wordsOf(error)}`);
