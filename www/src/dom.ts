@@ -1,3 +1,7 @@
+import { NormalightError } from "normalight";
+import { type Line, lineOf } from "./texts/lines.js";
+import { texts } from "./texts/texts.js";
+
 /** An element of the page that is known to be there. */
 export function byId<E extends HTMLElement = HTMLElement>(id: string): E {
   const element = document.getElementById(id);
@@ -20,7 +24,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 /** The drawing context of a canvas. */
 export function context(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   const drawing = canvas.getContext("2d");
-  if (drawing === null) throw new Error("this browser cannot draw");
+  if (drawing === null) throw new Error(texts.errors.noDrawing);
   return drawing;
 }
 
@@ -48,19 +52,41 @@ export function say(element: HTMLElement, words: string): void {
   element.textContent = words;
 }
 
-/** What begins a line about something doubtful. */
-const NOTICE = /^notice: /;
-
-/** Shows lines in a list, which is hidden while there are none; what is doubtful stands out. */
-export function sayLines(list: HTMLElement, lines: readonly string[]): void {
-  list.hidden = lines.length === 0;
-  const item = (line: string) => make("li", NOTICE.test(line) ? "doubtful" : "", line.replace(NOTICE, ""));
-  list.replaceChildren(...lines.map(item));
+/** Words that the estimator or the browser wrote: they are English whatever the page speaks, and are to be read so. */
+export function english(words: string): HTMLElement {
+  const element = make("span", "", words);
+  element.lang = "en";
+  return element;
 }
 
-/** The lines about what is doubtful. */
-export function doubtful(lines: readonly string[]): string[] {
-  return lines.filter((line) => NOTICE.test(line));
+/** Shows what went wrong. */
+export function sayError(element: HTMLElement, error: unknown): void {
+  element.hidden = false;
+  const words = wordsOf(error);
+  if (!isForeign(error)) {
+    element.textContent = words;
+    return;
+  }
+  const before = error instanceof NormalightError && texts.errors.before?.[error.code];
+  element.replaceChildren(...(before ? [`${before}: `] : []), english(words));
+}
+
+/** Whether others than the page have written what an error says. */
+function isForeign(error: unknown): boolean {
+  return [NormalightError, DOMException, TypeError, RangeError].some((kind) => error instanceof kind);
+}
+
+/** Shows lines in a list, which is hidden while there are none; what is doubtful stands out. */
+export function sayLines(list: HTMLElement, lines: readonly (Line | string)[]): void {
+  list.hidden = lines.length === 0;
+  const items = lines.map((line) => (typeof line === "string" ? lineOf(line) : line));
+  list.replaceChildren(
+    ...items.map((line) => {
+      const item = make("li", line.doubtful ? "doubtful" : "", line.words);
+      if (line.english) item.append(": ", english(line.english));
+      return item;
+    }),
+  );
 }
 
 /** What a failure says to people. */

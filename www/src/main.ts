@@ -3,11 +3,12 @@ import { areArchives, capturesOf } from "./archives/archives.js";
 import { showCaptureHelp } from "./capture_help.js";
 import type { Capture, Found } from "./captures.js";
 import { CropChoice } from "./crop/choice.js";
-import { byId, wordsOf } from "./dom.js";
+import { byId } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
+import { LanguageChoice } from "./language_choice.js";
 import { SizeChoice } from "./large/size.js";
 import { isChanged, LightHand } from "./lights/hand.js";
 import { toCsv } from "./lights/light_text.js";
@@ -24,6 +25,10 @@ import { Session } from "./session/session.js";
 import { Settings } from "./settings.js";
 import { Stack } from "./stack.js";
 import { nameOf } from "./stack_name.js";
+import { translatePage } from "./texts/page.js";
+import { texts } from "./texts/texts.js";
+
+translatePage();
 
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
@@ -59,7 +64,8 @@ const settings = new Settings(form, rigs, ambient, {
 const result = new ResultView(engine);
 const crop = new CropChoice(engine, stack, () => {
   size.cropped();
-  session.changed("stack");
+  // Else the stack is kept with all that is known of it once it is planned.
+  if (stack.planned) session.changed("stack");
 });
 const size = new SizeChoice(form, engine, stack, settings, crop);
 const run = new Run(form, engine, stack, settings, size, (done) => {
@@ -90,7 +96,7 @@ form.addEventListener("change", ({ target }) => {
 });
 
 function turnGreen(): void {
-  result.turnGreen(format()).catch((error) => run.fail(wordsOf(error)));
+  result.turnGreen(format()).catch((error) => run.fail(error));
 }
 
 run.stackPlanned();
@@ -172,14 +178,14 @@ async function takeFound(found: Found): Promise<void> {
     folders.found(found);
     return;
   }
-  folders.wait("Looking into the archive.");
+  folders.wait(texts.folders.lookingIntoArchive);
   try {
     const inside = await capturesOf(only.files);
     if (run.underWay) run.ignore();
     else folders.found(inside ?? found);
   } catch (error) {
     folders.wait("");
-    run.fail(wordsOf(error));
+    run.fail(error);
   }
 }
 
@@ -218,11 +224,17 @@ function restore(bench: Bench): void {
   if (bench.queue) queue.restore(bench.queue, bench.outcome);
 }
 
+new LanguageChoice({
+  busy: () => run.underWay,
+  // Results of a queue last as long as the page.
+  keep: async () => byId("queue").hidden && (await session.keep()),
+});
+
 // Nothing is lost with an empty bench.
 const offline = new Offline(() => stack.files.length === 0 && outcome === undefined && !run.underWay);
 
 connect("pick-files", "files", (files) => {
-  if (areArchives(files)) void takeFound({ captures: [{ folder: "", files }], words: "" });
+  if (areArchives(files)) void takeFound({ captures: [{ folder: "", files }] });
   else take(files);
 });
 connect("pick-folder", "folder", (files) => void takeFound(filesOfFolder(files)));
@@ -264,6 +276,6 @@ page.addEventListener("drop", async (event) => {
   try {
     await takeFound(await filesOfDrop(event.dataTransfer));
   } catch (error) {
-    run.fail(wordsOf(error));
+    run.fail(error);
   }
 });

@@ -1,5 +1,6 @@
 import { type Found, isOther } from "../captures.js";
-import type { FromArchives } from "./worker.js";
+import { texts } from "../texts/texts.js";
+import type { ArchiveProblem, FromArchives } from "./worker.js";
 
 const ZIP = /\.zip$/i;
 
@@ -18,14 +19,19 @@ export async function capturesOf(files: readonly File[]): Promise<Found | undefi
   try {
     return await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }: MessageEvent<FromArchives>) =>
-        "problem" in data ? reject(new Error(data.problem)) : resolve(data.found);
+        "problem" in data ? reject(new Error(wordsFor(data.problem))) : resolve(data.found);
       worker.onerror = (event) => {
         event.preventDefault();
-        reject(new Error(`The archive cannot be unpacked: ${event.message || "out of memory"}`));
+        reject(new Error(texts.folders.archiveUnread(event.message || texts.large.outOfMemory)));
       };
       worker.postMessage(files.filter(({ name }) => ZIP.test(name)));
     });
   } finally {
     worker.terminate();
   }
+}
+
+function wordsFor(problem: ArchiveProblem): string {
+  if (problem.kind === "broken") return problem.message;
+  return texts.folders.archiveTooLarge(problem.place, problem.gigabytes);
 }

@@ -1,3 +1,5 @@
+import type { Frame } from "../crop/rectangle.js";
+import { texts } from "../texts/texts.js";
 import type { Taken } from "./taken.js";
 
 /** To the worker: a picture, and what of it is taken. */
@@ -8,8 +10,14 @@ export interface ToTake {
   readonly linear: boolean;
 }
 
+/** Why a picture cannot be taken. */
+export type TakenProblem =
+  | { readonly kind: "other-size"; readonly own: Frame; readonly others: Frame }
+  | { readonly kind: "no-drawing" }
+  | { readonly kind: "broken"; readonly message: string };
+
 /** From the worker: a PNG, or what is wrong. */
-export type TakenPicture = { readonly png: Blob } | { readonly problem: string };
+export type TakenPicture = { readonly png: Blob } | { readonly problem: TakenProblem };
 
 /**
  * Files of which those that are `chosen` are cropped and brought to a smaller size, as PNG of 8 bits sRGB.
@@ -57,17 +65,27 @@ export function withoutExtension(name: string): string {
 
 function ask(worker: Worker, request: ToTake, signal: AbortSignal): Promise<Blob> {
   return new Promise((resolve, reject) => {
-    const what = request.taken.crop ? "cropped" : "made smaller";
-    const cannot = (reason: string) =>
-      reject(new Error(`${request.file.name}: cannot be ${what}: ${reason}`));
+    const words = request.taken.crop ? texts.large.notCropped : texts.large.notShrunk;
+    const cannot = (reason: string) => reject(new Error(words(request.file.name, reason)));
     signal.throwIfAborted();
     signal.addEventListener("abort", () => reject(signal.reason), { once: true });
     worker.onmessage = ({ data }: MessageEvent<TakenPicture>) =>
-      "png" in data ? resolve(data.png) : cannot(data.problem);
+      "png" in data ? resolve(data.png) : cannot(wordsFor(data.problem));
     worker.onerror = (event) => {
       event.preventDefault();
-      cannot(event.message || "out of memory");
+      cannot(event.message || texts.large.outOfMemory);
     };
     worker.postMessage(request);
   });
+}
+
+function wordsFor(problem: TakenProblem): string {
+  switch (problem.kind) {
+    case "other-size":
+      return texts.large.otherSize(problem.own, problem.others);
+    case "no-drawing":
+      return texts.errors.noDrawing;
+    case "broken":
+      return problem.message;
+  }
 }

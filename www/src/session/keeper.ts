@@ -1,6 +1,8 @@
 import { wordsOf } from "../dom.js";
 import type { KeptQueue, Term } from "../queue/state.js";
 import type { Outcome } from "../result.js";
+import { fixed } from "../texts/numbers.js";
+import { texts } from "../texts/texts.js";
 import {
   type Bench,
   type KeptOutcome,
@@ -25,6 +27,8 @@ export class SessionKeeper {
   #stack: readonly string[] = [];
   #outcome: readonly string[] = [];
   #queue: readonly string[] = [];
+  /** The result that is kept. */
+  #shown: Outcome | undefined;
   #saving: Promise<void> | undefined;
   /** Why this stack is not kept. */
   #failed = false;
@@ -47,6 +51,14 @@ export class SessionKeeper {
     this.#saving ??= this.#save().finally(() => {
       this.#saving = undefined;
     });
+  }
+
+  /** Waits until everything is written; whether all that is on the bench is kept then. */
+  async settled(): Promise<boolean> {
+    while (this.#saving) await this.#saving;
+    const { files, outcome } = this.bench();
+    const stack = files.every((file) => this.#names.has(file));
+    return stack && (outcome === undefined || outcome === this.#shown);
   }
 
   /** What was read from the browser is on the bench now, and its files need not be written again. */
@@ -82,11 +94,12 @@ export class SessionKeeper {
     const other = !files.some((file) => this.#names.has(file));
     if (other && this.#names.size + files.length > 0) {
       if (!this.store.owned) {
-        this.tell("Another window's photographs are kept for a reload, not these.");
+        this.tell(texts.session.otherWindow);
         return;
       }
       // Another stack, or none: nothing of the last one stays.
       [this.#stack, this.#outcome, this.#failed] = [[], [], false];
+      this.#shown = undefined;
       this.#time = Date.now();
       this.tell("");
       if (files.length > 0 && queue) {
@@ -113,8 +126,7 @@ export class SessionKeeper {
     const missing = files.filter((file) => !this.#names.has(file));
     const needed = bytesOf(missing);
     const free = await room();
-    if (needed > free)
-      throw new Error(`they have ${gigabytes(needed)}, and this browser takes ${gigabytes(free)} more`);
+    if (needed > free) throw new Error(texts.session.tooLarge(gigabytes(needed), gigabytes(free)));
     for (const file of missing) {
       // Other files came meanwhile: they are next.
       if (this.#changed.has("stack")) return false;
@@ -130,7 +142,7 @@ export class SessionKeeper {
       files: this.#stack,
     } satisfies KeptStack);
     await this.#deleteOthers();
-    this.tell("Kept on this device for a reload, until you clear them or take others.");
+    this.tell(texts.session.kept);
     return true;
   }
 
@@ -142,6 +154,7 @@ export class SessionKeeper {
 
   async #writeOutcome(): Promise<void> {
     const { outcome } = this.bench();
+    this.#shown = undefined;
     const most = Math.min(LARGEST, await room());
     if (!outcome || !this.#holds(outcome) || largeBytes(outcome.estimate) > most) {
       this.#outcome = [];
@@ -155,6 +168,7 @@ export class SessionKeeper {
     const parts = { files: this.#partsOf(files), used: this.#partsOf(used) };
     this.#outcome = [...parts.files, ...parts.used];
     await this.store.set("outcome", { name, format, size, taken, estimate, ...parts } satisfies KeptOutcome);
+    this.#shown = outcome;
     await this.#deleteOthers();
   }
 
@@ -208,7 +222,8 @@ export class SessionKeeper {
   /** What cannot be kept whole is not kept at all; an estimate does not need it. */
   async #giveUp(error: unknown): Promise<void> {
     this.#failed = true;
-    this.tell(`These photographs are not kept for a reload: ${reason(error)}.`);
+    this.#shown = undefined;
+    this.tell(texts.session.notKept(reason(error)));
     await this.#clear().catch(() => undefined);
   }
 
@@ -225,8 +240,7 @@ export class SessionKeeper {
 }
 
 function reason(error: unknown): string {
-  if (error instanceof DOMException && error.name === "QuotaExceededError")
-    return "this browser has no room left";
+  if (error instanceof DOMException && error.name === "QuotaExceededError") return texts.session.full;
   return wordsOf(error).replace(/\.$/, "");
 }
 
@@ -235,5 +249,5 @@ function bytesOf(files: readonly File[]): number {
 }
 
 function gigabytes(bytes: number): string {
-  return bytes < 1e9 ? `${Math.max(Math.round(bytes / 1e6), 0)} MB` : `${(bytes / 1e9).toFixed(1)} GB`;
+  return bytes < 1e9 ? `${Math.max(Math.round(bytes / 1e6), 0)} MB` : `${fixed(bytes / 1e9, 1)} GB`;
 }

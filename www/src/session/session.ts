@@ -3,6 +3,7 @@ import type { Hand } from "../lights/hand.js";
 import type { Term } from "../queue/state.js";
 import type { Outcome } from "../result.js";
 import type { KeptSettings } from "../settings.js";
+import { texts } from "../texts/texts.js";
 import type { Bench, KeptOutcome, KeptStack, Part, StoredQueue } from "./bench.js";
 import { SessionKeeper } from "./keeper.js";
 import { unpack } from "./pack.js";
@@ -18,6 +19,9 @@ export interface SessionPage {
   /** Nothing of the last session is kept any more. */
   cleared(): void;
 }
+
+/** Under this name a window knows that it loads itself again, and that nothing is to be asked then. */
+const AGAIN = "normalight.again";
 
 /** The session of this browser: what is on the bench is kept, and offered after a reload or a crash. */
 export class Session {
@@ -52,7 +56,14 @@ export class Session {
     this.#keeper.changed(part);
   }
 
-  /** Offers what the last visit left; nothing is put back unasked. */
+  /** Keeps everything for a reload that the page begins itself; whether all of it is kept. */
+  async keep(): Promise<boolean> {
+    const kept = await this.#keeper.settled();
+    if (kept && this.#page.bench().files.length > 0) sessionStorage.setItem(AGAIN, "true");
+    return kept;
+  }
+
+  /** Offers what the last visit left; nothing is put back unasked, but where the page has loaded itself again. */
   async #find(): Promise<void> {
     try {
       const stack = await this.#store.get<KeptStack>("stack");
@@ -62,9 +73,13 @@ export class Session {
         return;
       }
       if (!stack) return;
+      if (sessionStorage.getItem(AGAIN)) {
+        sessionStorage.removeItem(AGAIN);
+        await this.#putBack();
+        return;
+      }
       const { name, photographs, time } = stack;
-      const count = photographs === 1 ? "1 photograph" : `${photographs} photographs`;
-      byId("session-words").textContent = `Go on with ${name} (${count}, from ${since(time)})`;
+      byId("session-words").textContent = texts.session.goOn(name, photographs, time);
       this.#offer.hidden = false;
     } catch {
       // A browser that keeps nothing has nothing to offer; it says so when there is something to keep.
@@ -77,12 +92,16 @@ export class Session {
     try {
       await this.#store.clear();
     } catch (error) {
-      say(this.#problem, `The photographs are still kept: ${wordsOf(error)}`);
+      say(this.#problem, texts.session.stillKept(wordsOf(error)));
     }
   }
 
   async #restore(): Promise<void> {
     this.#leave();
+    await this.#putBack();
+  }
+
+  async #putBack(): Promise<void> {
     try {
       const [stack, settings, outcome, hand, queue] = (await this.#store.getMany<unknown>([
         "stack",
@@ -119,13 +138,13 @@ export class Session {
       });
       say(this.#problem, "");
     } catch (error) {
-      say(this.#problem, `What was kept cannot be read: ${wordsOf(error)}`);
+      say(this.#problem, texts.session.unread(wordsOf(error)));
     }
   }
 
   async #files(parts: readonly string[]): Promise<Map<string, File>> {
     const files = await this.#store.getMany<File>(parts);
-    if (files.some((file) => !(file instanceof File))) throw new Error("photographs are missing.");
+    if (files.some((file) => !(file instanceof File))) throw new Error(texts.session.missing);
     return new Map(parts.map((part, index) => [part, files[index] as File]));
   }
 
@@ -134,12 +153,4 @@ export class Session {
     this.#offer.hidden = true;
     byId("pick-files").focus();
   }
-}
-
-/** A time of today, or a day and a time. */
-function since(time: number): string {
-  const then = new Date(time);
-  const clock = then.toLocaleTimeString("en", { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
-  if (then.toDateString() === new Date().toDateString()) return clock;
-  return `${then.toLocaleDateString("en", { day: "numeric", month: "long" })}, ${clock}`;
 }

@@ -1,0 +1,4 @@
+export const cropPage = {
+  open: "Crop…",
+  remove: "Take the whole frame",
+};
