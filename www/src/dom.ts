@@ -59,16 +59,20 @@ export function english(words: string): HTMLElement {
   return element;
 }
 
-/** Shows what went wrong. */
-export function sayError(element: HTMLElement, error: unknown): void {
-  element.hidden = false;
+/** Stands for the reason where words are made around one. */
+const REASON = "\0";
+
+/** Shows what went wrong. @param around makes the words that the reason stands in */
+export function sayError(element: HTMLElement, error: unknown, around = (why: string) => why): void {
   const words = wordsOf(error);
   if (!isForeign(error)) {
-    element.textContent = words;
+    say(element, around(words));
     return;
   }
-  const before = error instanceof NormalightError && texts.errors.before?.[error.code];
-  element.replaceChildren(...(before ? [`${before}: `] : []), english(words));
+  const kind = error instanceof NormalightError && texts.errors.before?.[error.code];
+  const [before = "", after = ""] = around(REASON).split(REASON);
+  element.hidden = false;
+  element.replaceChildren(kind ? `${before}${kind}: ` : before, english(words), after);
 }
 
 /** Whether others than the page have written what an error says. */

@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { complaints } from "./support/axe.js";
 import { greyPng } from "./support/files.js";
@@ -18,6 +19,13 @@ const onlyEnglish = wordsIn(en).filter((words) => !german.has(words));
 const small = /** @type {const} */ (["x", "y", "both"]).map((lit, index) =>
   greyPng(`00${index + 1}.png`, 32, 32, 200, lit),
 );
+
+test("what a system shows of the installed page has the words of the page", async () => {
+  const path = new URL("../public/manifest.webmanifest", import.meta.url);
+  const { description, description_localized } = JSON.parse(await readFile(path, "utf8"));
+  assert.equal(description, en.top.description);
+  assert.deepEqual(description_localized, { de: de.top.description });
+});
 
 /** @type {Page} */
 let page;
@@ -77,7 +85,7 @@ test("what the estimator does and doubts is said in German, and its own words ar
   assert.match((await tab.textContent("#stack-notes")) ?? "", /^Ausgelassen: notes\.docx \(kein Bild\)/);
   assert.equal(await page.estimate(), "");
   assert.match((await tab.textContent("#status")) ?? "", /^Fertig in \d+,\d s\.$/);
-  assert.match((await tab.textContent("#facts")) ?? "", /3 mit 32 × 32 Pixeln.*Qualitätschnell/);
+  assert.match((await tab.textContent("#facts")) ?? "", /3 mit 32 × 32 Pixeln.*QualitätSchnell/);
   const plan = await tab.locator("#plan li").allTextContents();
   assert.equal(plan[0], "Fotos: 3 (nach Namen): 001.png bis 003.png");
   assert.match(plan.join("\n"), /nichts in den Fotos sagt, wie sich ihre Zahlen zum Licht verhalten/i);

@@ -1,4 +1,4 @@
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError } from "../dom.js";
 import type { Engine } from "../engine.js";
 import { aboutPhotograph } from "../large/about.js";
 import type { Stack } from "../stack.js";
@@ -66,7 +66,7 @@ export class CropChoice {
       const edited = await editCrop(file, this.crop);
       if (edited) this.#take(edited.crop && edited);
     } catch (error) {
-      say(this.#problem, wordsOf(error));
+      sayError(this.#problem, error);
     }
     this.#button.disabled = false;
     this.#button.focus();

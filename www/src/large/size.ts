@@ -135,7 +135,7 @@ export class SizeChoice {
     const { large } = texts;
     const here = memoryHere();
     const lacking = memoryOf(this.#shape(about, this.times)) <= here ? "" : large.lacking(here);
-    if (about.fixed) return `${large.wholeOnly(this.#file?.name ?? "", about.fixed)} ${lacking}`.trim();
+    if (about.fixed) return `${texts.crop.fixed(this.#file?.name ?? "", about.fixed)} ${lacking}`.trim();
     if (lacking) return lacking;
     return memoryOf(this.#shape(about, 1)) <= here ? "" : large.noMemory(here);
   }

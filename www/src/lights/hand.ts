@@ -1,5 +1,5 @@
 import type { Estimate, EstimateOptions } from "normalight";
-import { byId, make, say, sayLines, wordsOf } from "../dom.js";
+import { byId, make, say, sayError, sayLines } from "../dom.js";
 import type { Stack } from "../stack.js";
 import { texts } from "../texts/texts.js";
 import { coverage } from "./coverage.js";
@@ -239,7 +239,7 @@ export class LightHand {
         ...(mask ? { mask: new File([mask.bytes], "mask.png", { type: "image/png" }) } : {}),
       });
     } catch (error) {
-      say(this.#words, wordsOf(error));
+      sayError(this.#words, error);
     } finally {
       this.#own = false;
     }

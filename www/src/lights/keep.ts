@@ -1,4 +1,4 @@
-import { make, say, wordsOf } from "../dom.js";
+import { make, say, sayError } from "../dom.js";
 import { texts } from "../texts/texts.js";
 import type { HandLight } from "./light.js";
 import { lightsOf, toCsv, toJson, toLp } from "./light_text.js";
@@ -89,7 +89,7 @@ export class LightKeep {
     try {
       await work();
     } catch (error) {
-      say(this.#words, wordsOf(error));
+      sayError(this.#words, error);
     }
   }
 }

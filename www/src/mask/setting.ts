@@ -1,5 +1,5 @@
 import type { EstimateOptions } from "normalight";
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError } from "../dom.js";
 import type { Engine } from "../engine.js";
 import type { Settings } from "../settings.js";
 import type { Stack } from "../stack.js";
@@ -43,7 +43,7 @@ export class MaskSetting {
       });
       if (mask) this.#settings.drawnMask(mask);
     } catch (error) {
-      say(this.#problem, wordsOf(error));
+      sayError(this.#problem, error);
     }
     this.#button.disabled = false;
     this.#button.focus();

@@ -1,5 +1,5 @@
 import type { Light } from "normalight";
-import { byId, make, say, wordsOf } from "../dom.js";
+import { byId, make, say, sayError } from "../dom.js";
 import { texts } from "../texts/texts.js";
 import type { Distrust } from "./distrust.js";
 import type { Relighting } from "./relighting.js";
@@ -103,7 +103,7 @@ export class Replay {
     } catch (error) {
       if (this.#distrust !== distrust) return;
       this.#stop();
-      say(this.#words, texts.relight.failed(wordsOf(error)));
+      sayError(this.#words, error, texts.relight.failed);
     }
   }
 }

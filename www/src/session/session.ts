@@ -1,4 +1,4 @@
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError } from "../dom.js";
 import type { Hand } from "../lights/hand.js";
 import type { Term } from "../queue/state.js";
 import type { Outcome } from "../result.js";
@@ -92,7 +92,7 @@ export class Session {
     try {
       await this.#store.clear();
     } catch (error) {
-      say(this.#problem, texts.session.stillKept(wordsOf(error)));
+      sayError(this.#problem, error, texts.session.stillKept);
     }
   }
 
@@ -138,7 +138,7 @@ export class Session {
       });
       say(this.#problem, "");
     } catch (error) {
-      say(this.#problem, texts.session.unread(wordsOf(error)));
+      sayError(this.#problem, error, texts.session.unread);
     }
   }
 

@@ -1,4 +1,4 @@
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError, wordsOf } from "../dom.js";
 import type { Lamp, Look } from "../relight/shading.js";
 import { texts } from "../texts/texts.js";
 import type { Relief } from "./grid.js";
@@ -74,8 +74,8 @@ export class Solid {
       say(this.#words, "");
     } catch (error) {
       this.close();
-      const webgl = /webgl/i.test(wordsOf(error));
-      say(this.#words, webgl ? texts.solid.noWebgl : wordsOf(error));
+      if (/webgl/i.test(wordsOf(error))) say(this.#words, texts.solid.noWebgl);
+      else sayError(this.#words, error);
     } finally {
       this.#button.disabled = false;
     }

@@ -1,4 +1,4 @@
-import { make, say, wordsOf } from "../dom.js";
+import { make, say, sayError } from "../dom.js";
 import { texts } from "../texts/texts.js";
 import type { Picture } from "./picture.js";
 
@@ -87,7 +87,7 @@ export class Choice {
     } catch (error) {
       if (this.#loading !== layer) return;
       this.picture = undefined;
-      say(this.status, texts.viewer.failed(layer.name, wordsOf(error)));
+      sayError(this.status, error, (why) => texts.viewer.failed(layer.name, why));
     }
     this.changed();
   }

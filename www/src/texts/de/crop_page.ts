@@ -1,6 +1,5 @@
 import type { cropPage as en } from "../en/crop_page.js";
 
 export const cropPage: typeof en = {
-  open: "Ausschnitt …",
   remove: "Ganzes Bild nehmen",
 };

@@ -1,5 +1,6 @@
 import type { large as en } from "../en/large.js";
 import { fixed } from "../numbers.js";
+import { crop as rectangles } from "./crop.js";
 
 function memory(bytes: number): string {
   return `${fixed(bytes / 2 ** 30, 1)} GB`;
@@ -27,7 +28,6 @@ export const large: typeof en = {
   },
   lacking: (here) =>
     `Das ist mehr als die ${memory(here)}, die eine Seite hat: Der Lauf kann scheitern. Das Kommandozeilenprogramm hat diese Grenze nicht.`,
-  wholeOnly: (file, why) => `Sie lassen sich nur ganz nehmen: ${file} ${why}.`,
   noMemory: (here) => `Die volle Größe bräuchte mehr Speicher, als eine Seite hat (${memory(here)}).`,
   fixed: {
     deep: "hat 16 Bit je Wert, von denen Browser 8 behalten",
@@ -42,11 +42,7 @@ export const large: typeof en = {
     `Es hat ${own.width} × ${own.height} Pixel, andere haben ${others.width} × ${others.height}`,
   outOfMemory: "nicht genug Speicher",
   taken: (crop, times, frame) => {
-    const part = crop
-      ? [
-          `zugeschnitten auf ${crop.width} × ${crop.height} Pixel, ${crop.left} von links und ${crop.top} von oben`,
-        ]
-      : [];
+    const part = crop ? [`zugeschnitten auf ${rectangles.rectangle(crop)}`] : [];
     const size = times === 1 ? [] : [times === 2 ? "halb so groß" : "ein Viertel so groß"];
     const words = [...part, ...size].join(", ");
     return words && frame ? `${words}, aus ${frame.width} × ${frame.height} Pixeln` : words;

@@ -19,6 +19,5 @@ export const relightPage: typeof en = {
     "Beleuchtet das Objekt, wie es in jedem Foto war, und zeigt beides. Wo sie sich stark unterscheiden, sind Schatten, Glanz oder falsche Normalen der Grund: Die Karte „Wo Zweifel angebracht sind“ sammelt das über alle Fotos.",
   lightOf: "Licht von",
   previous: "Zurück",
-  play: "Abspielen",
   next: "Weiter",
 };

@@ -1,8 +1,7 @@
-import type { MaskOrigin, Quality } from "normalight";
+import type { MaskOrigin } from "normalight";
 import type { result as en } from "../en/result.js";
 import { fixed, percent, whole } from "../numbers.js";
-
-const qualities: Record<Quality, string> = { fast: "schnell", default: "normal", best: "beste" };
+import { settings } from "./settings.js";
 
 const masks: Record<Exclude<MaskOrigin, "file">, string> = {
   alpha: "Transparenz des ersten Bilds",
@@ -24,7 +23,7 @@ export const result: typeof en = {
     `${source === "file" ? words : masks[source]}, ${whole(pixels)} Pixel`,
   device: "Gerät",
   quality: "Qualität",
-  qualityOf: (quality) => qualities[quality],
+  qualityOf: (quality) => settings[quality],
   expected: "Zu erwartende Fehler",
   expectedLights: (degrees) => `Lichter ${fixed(degrees, 0)}°`,
   expectedNormals: (degrees) => `Normalen ${fixed(degrees, 0)}°`,

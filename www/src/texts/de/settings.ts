@@ -8,10 +8,10 @@ export const settings: typeof en = {
   cpu: "CPU",
   quality: "Qualität",
   fast: "Schnell",
-  default: "Normal",
+  default: "Standard",
   best: "Beste",
   qualityWhat:
-    "„Normal“ betrachtet vier gespiegelte Ansichten und dauert doppelt so lang wie „Schnell“, „Beste“ acht und sechsmal so lang.",
+    "„Standard“ betrachtet vier gespiegelte Ansichten und dauert doppelt so lang wie „Schnell“, „Beste“ acht und sechsmal so lang.",
   images: "Bilder",
   all: "Alle",
   file: "Datei …",

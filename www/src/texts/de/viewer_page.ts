@@ -15,7 +15,6 @@ export const viewerPage: typeof en = {
   fit: "Einpassen",
   fitKey: "Das ganze Bild (0)",
   actualKey: "Ein Pixel der Karte je Pixel des Bildschirms (1)",
-  fullScreen: "Vollbild",
   fullScreenKey: "Vollbild (F)",
   picture: "Bild",
   map: "Karte",

@@ -1,4 +1,3 @@
 export const cropPage = {
-  open: "Crop…",
   remove: "Take the whole frame",
 };

@@ -1,5 +1,6 @@
 import type { Crop, Frame } from "../../crop/rectangle.js";
 import { fixed } from "../numbers.js";
+import { crop as rectangles } from "./crop.js";
 
 function memory(bytes: number): string {
   return `${fixed(bytes / 2 ** 30, 1)} GB`;
@@ -34,7 +35,6 @@ export const large = {
   },
   lacking: (here: number) =>
     `That is more than the ${memory(here)} that a page has: the run may fail. The command has no such limit.`,
-  wholeOnly: (file: string, why: string) => `They can only be taken whole: ${file} ${why}.`,
   noMemory: (here: number) =>
     `More memory than there is for a page (${memory(here)}) would be needed for the full size.`,
   fixed: {
@@ -51,11 +51,7 @@ export const large = {
   outOfMemory: "out of memory",
   /** How photographs were taken. */
   taken: (crop: Crop | undefined, times: 1 | 2 | 4, frame: Frame | undefined) => {
-    const part = crop
-      ? [
-          `cropped to ${crop.width} × ${crop.height} pixels, ${crop.left} from the left and ${crop.top} from the top`,
-        ]
-      : [];
+    const part = crop ? [`cropped to ${rectangles.rectangle(crop)}`] : [];
     const size = times === 1 ? [] : [`at ${times === 2 ? "half" : "a quarter of"} their size`];
     const words = [...part, ...size].join(", ");
     return words && frame ? `${words}, from ${frame.width} × ${frame.height} pixels` : words;

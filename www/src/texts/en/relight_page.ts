@@ -17,6 +17,5 @@ export const relightPage = {
     "Relights the object as each photograph was lit, and shows both. Where they differ much, shadows, gloss or wrong normals are the reason: the map “Where to distrust” collects that of all photographs.",
   lightOf: "Light of",
   previous: "Previous",
-  play: "Play",
   next: "Next",
 };

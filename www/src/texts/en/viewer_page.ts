@@ -13,7 +13,6 @@ export const viewerPage = {
   fit: "Fit",
   fitKey: "The whole picture (0)",
   actualKey: "One pixel of the map for one of the screen (1)",
-  fullScreen: "Full screen",
   fullScreenKey: "Full screen (F)",
   picture: "picture",
   map: "Map",
