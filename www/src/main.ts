@@ -226,8 +226,7 @@ function restore(bench: Bench): void {
 
 new LanguageChoice({
   busy: () => run.underWay,
-  // Results of a queue last as long as the page.
-  keep: async () => byId("queue").hidden && (await session.keep()),
+  keep: () => session.keep(() => queue.lasts),
 });
 
 // Nothing is lost with an empty bench.

@@ -107,8 +107,13 @@ test("finished results are there again after a reload, with the session", async 
         };
       }),
   );
-  await tab.reload();
-  await tab.click("#session-restore");
+  // Another language is a reload, too, after which nothing must be asked.
+  await tab.selectOption("#language", "de");
+  await tab.waitForSelector("#queue-words:text('2 von 3 Sätzen fertig, 1 gescheitert.')");
+  assert.match((await said("bowl")) ?? "", /^4 Fotos mit 48 × 64 Pixeln, zugeschnitten auf .*; [\d,]+ s$/);
+  assert.match((await tab.textContent("#queue-list span [lang=en]")) ?? "", /\b30/);
+  await page.ready();
+  await tab.selectOption("#language", "en");
   await tab.waitForSelector("#queue-words:text('2 of 3 stacks done, 1 failed.')");
   assert.deepEqual(await tab.locator("#queue-list li").allTextContents(), lines);
   assert.deepEqual(await pressed(), ["all/vase"]);
@@ -123,6 +128,7 @@ test("finished results are there again after a reload, with the session", async 
 });
 
 test("results whose photographs find no room are kept until the page is closed, which is said", async () => {
+  await page.ready();
   await tab.reload();
   await page.quick();
   await drop(tab, [...inFolder("new/a", AVIF_BALLS), ...inFolder("new/b", AVIF_BALLS)]);

@@ -1,4 +1,4 @@
-import { byId, make, say } from "../dom.js";
+import { byId, make, say, sayError, sayReason } from "../dom.js";
 import { takenWords } from "../large/taken.js";
 import { texts } from "../texts/texts.js";
 import type { State } from "./state.js";
@@ -23,13 +23,11 @@ export class QueueList {
     this.#buttons = [];
     this.#section.hidden = false;
     this.#list.replaceChildren(
-      ...names.map((name) =>
-        make("li", "", make("b", "", name), make("span", "", stateWords({ kind: "waiting" }))),
-      ),
+      ...names.map((name) => make("li", "", make("b", "", name), stateWords({ kind: "waiting" }))),
     );
     this.#zip.disabled = true;
     this.#forget.disabled = true;
-    this.fail("");
+    this.fail();
   }
 
   /** Says how far a stack is. */
@@ -38,7 +36,7 @@ export class QueueList {
     if (!(item instanceof HTMLElement)) return;
     item.dataset.state = state.kind;
     const name = item.firstElementChild?.textContent ?? "";
-    const said = make("span", "", stateWords(state));
+    const said = stateWords(state);
     if (state.kind !== "done") {
       item.replaceChildren(make("b", "", name), said);
       return;
@@ -59,8 +57,9 @@ export class QueueList {
   }
 
   /** Says what went wrong with the list itself. */
-  fail(words: string): void {
-    say(this.#problem, words);
+  fail(error?: unknown): void {
+    if (error === undefined) say(this.#problem, "");
+    else sayError(this.#problem, error);
   }
 
   /** The queue has come to its end. */
@@ -85,9 +84,12 @@ export class QueueList {
   }
 }
 
-function stateWords(state: State): string {
-  if (state.kind === "failed") return texts.queue.failed(state.why);
-  if (state.kind !== "done") return texts.queue.states[state.kind];
-  const { photographs, width, height, seconds, taken } = state.facts;
-  return texts.queue.done(photographs, width, height, takenWords(taken), seconds);
+function stateWords(state: State): HTMLElement {
+  const said = make("span");
+  if (state.kind === "failed") sayReason(said, state.reason, texts.queue.failed);
+  else if (state.kind === "done") {
+    const { photographs, width, height, seconds, taken } = state.facts;
+    said.textContent = texts.queue.done(photographs, width, height, takenWords(taken), seconds);
+  } else said.textContent = texts.queue.states[state.kind];
+  return said;
 }

@@ -1,5 +1,5 @@
 import type { Capture } from "../captures.js";
-import { wordsOf } from "../dom.js";
+import { reasonOf } from "../dom.js";
 import { fileNameOf, type Kept, store } from "../downloads.js";
 import { type Done, type Job, total } from "../job.js";
 import type { Format } from "../maps.js";
@@ -107,6 +107,11 @@ export class Queue {
     this.#list.mark(shown);
   }
 
+  /** Whether nothing of it is lost with the page. */
+  get lasts(): boolean {
+    return this.#done.length === 0 || this.#term === "reload";
+  }
+
   /** Deletes what sessions left that are not kept any more. */
   sweep(): void {
     void this.#results.sweep().catch(() => undefined);
@@ -137,7 +142,7 @@ export class Queue {
       this.#say(index, { kind: "done", facts: factsOf(done) });
       this.#page.changed();
     } catch (error) {
-      this.#say(index, signal.aborted ? { kind: "cancelled" } : { kind: "failed", why: wordsOf(error) });
+      this.#say(index, signal.aborted ? { kind: "cancelled" } : { kind: "failed", reason: reasonOf(error) });
     }
     this.#tell();
   }
@@ -164,7 +169,7 @@ export class Queue {
 
   async #show(index: number): Promise<void> {
     this.#wanted = index;
-    this.#list.fail("");
+    this.#list.fail();
     try {
       const outcome = await this.#results.read(index);
       const capture = this.#captures[index];
@@ -175,19 +180,19 @@ export class Queue {
       const some = this.#captures.filter(({ files }) => files.length > 0);
       this.#page.show(outcome, some, capture);
     } catch (error) {
-      this.#list.fail(wordsOf(error));
+      this.#list.fail(error);
     }
   }
 
   /** One archive with a folder for each finished stack. */
   async #zip(): Promise<void> {
-    this.#list.fail("");
+    this.#list.fail();
     this.#list.packing = true;
     try {
       const { zipOfFolders } = await import("../out/zip.js");
       store("stacks.zip", await zipOfFolders(this.#folders()));
     } catch (error) {
-      this.#list.fail(wordsOf(error));
+      this.#list.fail(error);
     }
     this.#list.packing = false;
   }

@@ -1,9 +1,10 @@
+import type { Reason } from "../dom.js";
 import type { Outcome } from "../result.js";
 
 /** How far a stack of a queue is, and what there is to say of it. */
 export type State =
   | { readonly kind: "waiting" | "now" | "cancelled" | "interrupted" }
-  | { readonly kind: "failed"; readonly why: string }
+  | { readonly kind: "failed"; readonly reason: Reason }
   | { readonly kind: "done"; readonly facts: Facts };
 
 /** What the list says of a result. */

@@ -56,9 +56,13 @@ export class Session {
     this.#keeper.changed(part);
   }
 
-  /** Keeps everything for a reload that the page begins itself; whether all of it is kept. */
-  async keep(): Promise<boolean> {
-    const kept = await this.#keeper.settled();
+  /**
+   * Keeps everything for a reload that the page begins itself; whether all of it is kept.
+   *
+   * @param others tells whether what it does not know of is kept, too
+   */
+  async keep(others: () => boolean): Promise<boolean> {
+    const kept = (await this.#keeper.settled()) && others();
     if (kept && this.#page.bench().files.length > 0) sessionStorage.setItem(AGAIN, "true");
     return kept;
   }
