@@ -1,4 +1,5 @@
-import { NormalightError } from "normalight";
+import { type ErrorCode, NormalightError } from "normalight";
+import { language } from "./texts/language.js";
 import { type Line, lineOf } from "./texts/lines.js";
 import { texts } from "./texts/texts.js";
 
@@ -53,7 +54,8 @@ export function say(element: HTMLElement, words: string): void {
 }
 
 /** Words that the estimator or the browser wrote: they are English whatever the page speaks, and are to be read so. */
-export function english(words: string): HTMLElement {
+export function english(words: string): HTMLElement | string {
+  if (language === "en") return words;
   const element = make("span", "", words);
   element.lang = "en";
   return element;
@@ -62,17 +64,40 @@ export function english(words: string): HTMLElement {
 /** Stands for the reason where words are made around one. */
 const REASON = "\0";
 
+/** Why something went wrong, as it can be kept. */
+export interface Reason {
+  readonly words: string;
+  /** Whether others than the page have written them. */
+  readonly foreign: boolean;
+  /** What kind of failure the estimator calls it. */
+  readonly code: ErrorCode | undefined;
+}
+
+/** What an error says. */
+export function reasonOf(error: unknown): Reason {
+  const code = error instanceof NormalightError ? error.code : undefined;
+  return { words: wordsOf(error), foreign: isForeign(error), code };
+}
+
 /** Shows what went wrong. @param around makes the words that the reason stands in */
-export function sayError(element: HTMLElement, error: unknown, around = (why: string) => why): void {
-  const words = wordsOf(error);
-  if (!isForeign(error)) {
+export function sayError(element: HTMLElement, error: unknown, around?: (why: string) => string): void {
+  sayReason(element, reasonOf(error), around);
+}
+
+/** Shows why something went wrong. @param around makes the words that the reason stands in */
+export function sayReason(
+  element: HTMLElement,
+  { words, foreign, code }: Reason,
+  around = (why: string) => why,
+): void {
+  if (!foreign) {
     say(element, around(words));
     return;
   }
-  const kind = error instanceof NormalightError && texts.errors.before?.[error.code];
-  const [before = "", after = ""] = around(REASON).split(REASON);
+  const kind = code && texts.errors.before?.[code];
+  const [before = "", after = ""] = around(kind ? `${kind}: ${REASON}` : REASON).split(REASON);
   element.hidden = false;
-  element.replaceChildren(kind ? `${before}${kind}: ` : before, english(words), after);
+  element.replaceChildren(before, english(words), after);
 }
 
 /** Whether others than the page have written what an error says. */

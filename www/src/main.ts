@@ -149,7 +149,15 @@ function take(files: File[]): void {
   folders.forget();
   replace(files);
 }
-const queue = new Queue({ engine, settings, size, run, format, show: showOf });
+const queue = new Queue({
+  engine,
+  settings,
+  size,
+  run,
+  format,
+  show: showOf,
+  changed: () => session.changed("queue"),
+});
 const folders = new FolderChoice(take, (captures, own) => void queue.start(captures, own));
 
 /** Shows a result of the queue, and puts its stack on the bench. */
@@ -190,8 +198,11 @@ const session = new Session({
     settings: settings.kept,
     outcome,
     hand: hand.held,
+    queue: queue.kept,
   }),
   restore,
+  keptQueue: (term) => queue.keptFor(term),
+  cleared: () => queue.sweep(),
 });
 
 /** Puts the session that was kept on the bench. */
@@ -210,12 +221,12 @@ function restore(bench: Bench): void {
     // Their result was too large to be kept: the next one begins with them.
     settings.handLights(new File([toCsv(bench.hand.lights)], "lights.csv", { type: "text/csv" }));
   }
+  if (bench.queue) queue.restore(bench.queue, bench.outcome);
 }
 
 new LanguageChoice({
   busy: () => run.underWay,
-  // Results of a queue last as long as the page.
-  keep: async () => byId("queue").hidden && (await session.keep()),
+  keep: () => session.keep(() => queue.lasts),
 });
 
 // Nothing is lost with an empty bench.

@@ -1,5 +1,5 @@
 import type { ObjectMask } from "normalight";
-import { make, wordsOf } from "../dom.js";
+import { make, sayError } from "../dom.js";
 import { texts } from "../texts/texts.js";
 import { MaskDocument } from "./document.js";
 import { MaskPanel } from "./panel.js";
@@ -161,7 +161,7 @@ class MaskEditor {
       history.forget();
       this.#tell();
     } catch (error) {
-      this.#say(wordsOf(error));
+      sayError(this.#words, error);
     }
   }
 
@@ -193,17 +193,17 @@ class MaskEditor {
     this.#stage.locked = true;
     // Short work needs no words, they would only flicker.
     const patience = setTimeout(() => this.#say(words), 200);
-    let problem = "";
+    let problem: unknown;
     try {
       await work();
     } catch (error) {
-      problem = wordsOf(error);
+      problem = error;
     }
     clearTimeout(patience);
     this.#busy -= 1;
     this.#stage.locked = this.#busy > 0;
     this.#tell();
-    if (problem) this.#say(problem);
+    if (problem) sayError(this.#words, problem);
   }
 
   /** Says how much is inside, soon: counting keeps no stroke waiting. */

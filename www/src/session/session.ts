@@ -1,9 +1,10 @@
 import { byId, say, sayError } from "../dom.js";
 import type { Hand } from "../lights/hand.js";
+import type { Term } from "../queue/state.js";
 import type { Outcome } from "../result.js";
 import type { KeptSettings } from "../settings.js";
 import { texts } from "../texts/texts.js";
-import type { Bench, KeptOutcome, KeptStack, Part } from "./bench.js";
+import type { Bench, KeptOutcome, KeptStack, Part, StoredQueue } from "./bench.js";
 import { SessionKeeper } from "./keeper.js";
 import { unpack } from "./pack.js";
 import { SessionStore } from "./store.js";
@@ -13,6 +14,10 @@ export interface SessionPage {
   bench(): Bench;
   /** Puts what was kept on the bench. */
   restore(bench: Bench): void;
+  /** For how long the queue is kept. */
+  keptQueue(term: Exclude<Term, "memory">): void;
+  /** Nothing of the last session is kept any more. */
+  cleared(): void;
 }
 
 /** Under this name a window knows that it loads itself again, and that nothing is to be asked then. */
@@ -21,14 +26,20 @@ const AGAIN = "normalight.again";
 /** The session of this browser: what is on the bench is kept, and offered after a reload or a crash. */
 export class Session {
   readonly #page: SessionPage;
-  readonly #store = new SessionStore();
+  readonly #store: SessionStore;
   readonly #keeper: SessionKeeper;
   readonly #offer = byId("session");
   readonly #problem = byId("session-problem");
 
   constructor(page: SessionPage) {
     this.#page = page;
-    this.#keeper = new SessionKeeper(this.#store, page.bench, (words) => say(byId("stack-kept"), words));
+    this.#store = new SessionStore(page.cleared);
+    this.#keeper = new SessionKeeper(
+      this.#store,
+      page.bench,
+      (words) => say(byId("stack-kept"), words),
+      page.keptQueue,
+    );
     byId("session-forget").addEventListener("click", () => void this.#forget());
     byId("session-restore").addEventListener("click", () => void this.#restore());
     void this.#store.granted.then(() => this.#find());
@@ -45,9 +56,13 @@ export class Session {
     this.#keeper.changed(part);
   }
 
-  /** Keeps everything for a reload that the page begins itself; whether all of it is kept. */
-  async keep(): Promise<boolean> {
-    const kept = await this.#keeper.settled();
+  /**
+   * Keeps everything for a reload that the page begins itself; whether all of it is kept.
+   *
+   * @param others tells whether what it does not know of is kept, too
+   */
+  async keep(others: () => boolean): Promise<boolean> {
+    const kept = (await this.#keeper.settled()) && others();
     if (kept && this.#page.bench().files.length > 0) sessionStorage.setItem(AGAIN, "true");
     return kept;
   }
@@ -92,14 +107,16 @@ export class Session {
 
   async #putBack(): Promise<void> {
     try {
-      const [stack, settings, outcome, hand] = (await this.#store.getMany<unknown>([
+      const [stack, settings, outcome, hand, queue] = (await this.#store.getMany<unknown>([
         "stack",
         "settings",
         "outcome",
         "hand",
-      ])) as [KeptStack, KeptSettings, KeptOutcome | undefined, Hand | undefined];
+        "queue",
+      ])) as [KeptStack, KeptSettings, KeptOutcome | undefined, Hand | undefined, StoredQueue | undefined];
       const ofOutcome = [...(outcome?.files ?? []), ...(outcome?.used ?? [])];
-      const files = await this.#files([...new Set([...stack.files, ...ofOutcome])]);
+      const ofQueue = queue?.stacks.flatMap(({ result }) => result?.files ?? []) ?? [];
+      const files = await this.#files([...new Set([...stack.files, ...ofOutcome, ...ofQueue])]);
       const listed = (parts: readonly string[]) => parts.flatMap((part) => files.get(part) ?? []);
       const { name, photographs, crop } = stack;
       const shown = outcome && {
@@ -108,11 +125,21 @@ export class Session {
         files: listed(outcome.files),
         used: listed(outcome.used),
       };
+      const stacks = queue?.stacks.map(({ result, ...one }) => ({
+        ...one,
+        result: result && { ...result, files: listed(result.files), used: listed(result.used) },
+      }));
       // Other files were taken meanwhile: those count.
       if (this.#page.bench().files.length > 0) return;
-      this.#keeper.adopt(stack, ofOutcome, files);
+      this.#keeper.adopt(stack, ofOutcome, ofQueue, files);
       const kept = { name, photographs, files: listed(stack.files), crop };
-      this.#page.restore({ ...kept, settings, outcome: shown, hand });
+      this.#page.restore({
+        ...kept,
+        settings,
+        outcome: shown,
+        hand,
+        queue: queue && stacks && { ...queue, stacks },
+      });
       say(this.#problem, "");
     } catch (error) {
       sayError(this.#problem, error, texts.session.unread);
