@@ -7,22 +7,13 @@ import { withoutExtension } from "./large/shrink.js";
 import { noticesByFile } from "./notices_by_file.js";
 import { Roving } from "./roving.js";
 import { texts } from "./texts/texts.js";
+import { type Entry, entryOf, flag } from "./tile.js";
 
 /** Longer side of a thumbnail in pixels. */
 const SIDE = 144;
 
 /** The plan of no files. */
 const NOTHING: Plan = { images: [], leftOut: [], notices: [], words: [] };
-
-/** One file of the stack and its tile. */
-interface Entry {
-  readonly file: File;
-  readonly tile: HTMLLIElement;
-  readonly picture: HTMLCanvasElement;
-  /** Colour mode the thumbnail was made with; none yet when missing. */
-  shown?: ColorMode;
-  problem?: unknown;
-}
 
 /** Who hears of the files. */
 interface Heard {
@@ -162,13 +153,7 @@ export class Stack {
   /** Shows on thumbnails what is doubtful about their files. */
   mark(notices: readonly Notice[]): void {
     for (const { tile } of this.#entries) tile.querySelector(".flag")?.remove();
-    for (const [name, words] of noticesByFile(notices)) {
-      const flag = make("span", "flag", "!");
-      flag.setAttribute("role", "img");
-      flag.setAttribute("aria-label", words);
-      flag.title = words;
-      this.#entryOf(name)?.tile.append(flag);
-    }
+    for (const [name, words] of noticesByFile(notices)) this.#entryOf(name)?.tile.append(flag(words));
   }
 
   /** Takes other files; `keep` adds them, and replaces those of the same name. */
@@ -188,17 +173,7 @@ export class Stack {
   }
 
   #entry(file: File): Entry {
-    const picture = make("canvas");
-    const remove = make("button", "remove", "×");
-    remove.type = "button";
-    remove.title = texts.stack.remove(file.name);
-    remove.setAttribute("aria-label", remove.title);
-    const room = make("span", "room", texts.stack.roomLight);
-    const tile = make("li", "", picture, make("span", "name", file.name), room, remove);
-    tile.title = file.name;
-    const entry: Entry = { file, tile, picture };
-    remove.tabIndex = -1;
-    remove.addEventListener("click", () => this.#remove(entry));
+    const entry = entryOf(file, () => this.#remove(entry));
     return entry;
   }
 
