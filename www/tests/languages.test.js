@@ -94,6 +94,14 @@ test("what the estimator does and doubts is said in German, and its own words ar
   assert.deepEqual(await complaints(tab, "html"), []);
   assert.deepEqual(await tooWide(), []);
 
+  const coming = tab.waitForEvent("download");
+  await tab.click("#share");
+  const shared = await readFile(await (await coming).path(), "utf8");
+  assert.match(shared, /<html lang="de">/);
+  assert.match(shared, /<canvas [^>]*aria-label="Das Objekt unter einer Lampe"/);
+  assert.match(shared, /<label>Glanz </);
+  assert.doesNotMatch(shared, /\{\{/);
+
   await page.choose("lights", { name: "lights.txt", bytes: new TextEncoder().encode("0 0 1\n") });
   const problem = await page.estimate();
   assert.ok(problem?.startsWith(`${de.errors.before.input}: lights.txt: `), problem ?? "");

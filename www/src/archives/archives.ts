@@ -1,3 +1,4 @@
+import { ask } from "../ask.js";
 import { type Found, isOther } from "../captures.js";
 import { texts } from "../texts/texts.js";
 import type { ArchiveProblem, FromArchives } from "./worker.js";
@@ -17,15 +18,10 @@ export function areArchives(files: readonly File[]): boolean {
 export async function capturesOf(files: readonly File[]): Promise<Found | undefined> {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
   try {
-    return await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }: MessageEvent<FromArchives>) =>
-        "problem" in data ? reject(new Error(wordsFor(data.problem))) : resolve(data.found);
-      worker.onerror = (event) => {
-        event.preventDefault();
-        reject(new Error(texts.folders.archiveUnread(event.message || texts.large.outOfMemory)));
-      };
-      worker.postMessage(files.filter(({ name }) => ZIP.test(name)));
-    });
+    const archives = files.filter(({ name }) => ZIP.test(name));
+    const answer = await ask<FromArchives>(worker, archives, texts.folders.archiveUnread);
+    if ("problem" in answer) throw new Error(wordsFor(answer.problem));
+    return answer.found;
   } finally {
     worker.terminate();
   }

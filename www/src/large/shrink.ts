@@ -1,3 +1,4 @@
+import { ask } from "../ask.js";
 import type { Frame } from "../crop/rectangle.js";
 import { texts } from "../texts/texts.js";
 import type { Taken } from "./taken.js";
@@ -34,6 +35,7 @@ export async function shrunk(
 ): Promise<File[]> {
   if (taken.times === 1 && !taken.crop) return [...files];
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+  const words = taken.crop ? texts.large.notCropped : texts.large.notShrunk;
   const used: File[] = [];
   let done = 0;
   try {
@@ -43,8 +45,12 @@ export async function shrunk(
         continue;
       }
       told(done, chosen.size);
-      const png = await ask(worker, { file, taken, linear }, signal);
-      used.push(new File([png], asPng(file.name), { type: "image/png", lastModified: file.lastModified }));
+      const request: ToTake = { file, taken, linear };
+      const cannot = (why: string) => words(file.name, why);
+      const answer = await ask<TakenPicture>(worker, request, cannot, signal);
+      if ("problem" in answer) throw new Error(cannot(wordsFor(answer.problem)));
+      const name = asPng(file.name);
+      used.push(new File([answer.png], name, { type: "image/png", lastModified: file.lastModified }));
       done += 1;
     }
     return used;
@@ -61,22 +67,6 @@ export function asPng(name: string): string {
 /** A name without what says its format. */
 export function withoutExtension(name: string): string {
   return name.replace(/\.[^./]*$/, "");
-}
-
-function ask(worker: Worker, request: ToTake, signal: AbortSignal): Promise<Blob> {
-  return new Promise((resolve, reject) => {
-    const words = request.taken.crop ? texts.large.notCropped : texts.large.notShrunk;
-    const cannot = (reason: string) => reject(new Error(words(request.file.name, reason)));
-    signal.throwIfAborted();
-    signal.addEventListener("abort", () => reject(signal.reason), { once: true });
-    worker.onmessage = ({ data }: MessageEvent<TakenPicture>) =>
-      "png" in data ? resolve(data.png) : cannot(wordsFor(data.problem));
-    worker.onerror = (event) => {
-      event.preventDefault();
-      cannot(event.message || texts.large.outOfMemory);
-    };
-    worker.postMessage(request);
-  });
 }
 
 function wordsFor(problem: TakenProblem): string {

@@ -21,7 +21,7 @@ export class MaskWork {
     });
     this.#worker.addEventListener("error", (event) => {
       event.preventDefault();
-      this.#fail(texts.mask.stopped(event.message));
+      this.#fail(texts.mask.stopped(event.message || texts.large.outOfMemory));
     });
   }
 

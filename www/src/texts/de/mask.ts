@@ -1,5 +1,6 @@
 import type { mask as English } from "../en/mask.js";
 import { fixed, whole } from "../numbers.js";
+import { errors } from "./errors.js";
 
 export const mask: typeof English = {
   title: "Maske",
@@ -88,7 +89,7 @@ export const mask: typeof English = {
   leaving: "Noch einmal Escape verlässt den Editor ohne diese Änderungen; „Fertig“ behält sie.",
 
   closed: "Der Maskeneditor wurde geschlossen.",
-  stopped: (why) => `Der Maskeneditor ist ausgefallen: ${why || "Der Speicher reicht nicht."}`,
+  stopped: (why) => `Der Maskeneditor ist ausgefallen: ${why}`,
   problem: (problem) => {
     switch (problem.kind) {
       case "shape": {
@@ -96,7 +97,7 @@ export const mask: typeof English = {
         return `Die Maske hat ${mask.width} × ${mask.height} Pixel, das Foto ${photograph.width} × ${photograph.height}.`;
       }
       case "canvas":
-        return "Dieser Browser kann nicht zeichnen.";
+        return errors.noDrawing;
       case "other":
         return problem.words;
     }

@@ -1,5 +1,6 @@
 import type { Problem } from "../../mask/protocol.js";
 import { fixed, whole } from "../numbers.js";
+import { errors } from "./errors.js";
 
 /** The mask editor, and the button that opens it. */
 export const mask = {
@@ -86,7 +87,7 @@ export const mask = {
   leaving: "Escape once more leaves without these changes; Done keeps them.",
 
   closed: "The mask editor was closed.",
-  stopped: (why: string) => `The mask editor's worker stopped: ${why || "out of memory"}`,
+  stopped: (why: string) => `The mask editor's worker stopped: ${why}`,
   problem: (problem: Problem) => {
     switch (problem.kind) {
       case "shape": {
@@ -94,7 +95,7 @@ export const mask = {
         return `the mask has ${mask.width}x${mask.height} pixels, the photograph ${photograph.width}x${photograph.height}`;
       }
       case "canvas":
-        return "this browser cannot draw";
+        return errors.noDrawing;
       case "other":
         return problem.words;
     }
