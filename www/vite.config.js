@@ -1,6 +1,7 @@
 import { defineConfig } from "vite";
 import { offline } from "./plugins/offline.js";
 import { policy } from "./plugins/policy.js";
+import { texts } from "./plugins/texts.js";
 
 export default defineConfig({
   // Relative addresses: the page runs from any folder of any server.
@@ -10,5 +11,5 @@ export default defineConfig({
   build: { target: "es2023", chunkSizeWarningLimit: 1000 },
   // The package's worker is a module.
   worker: { format: "es" },
-  plugins: [policy(), offline()],
+  plugins: [texts(), policy(), offline()],
 });

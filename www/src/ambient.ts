@@ -1,6 +1,7 @@
 import type { EstimateOptions } from "normalight";
 import { byId, make, say } from "./dom.js";
 import type { Stack } from "./stack.js";
+import { texts } from "./texts/texts.js";
 
 /** What the estimator is told about a photograph without lamp. */
 export type AmbientSetting = NonNullable<EstimateOptions["ambient"]>;
@@ -23,7 +24,7 @@ export class AmbientChoice {
   #files: readonly File[] = [];
 
   constructor(private readonly stack: Stack) {
-    this.#group.label = "It is this one";
+    this.#group.label = texts.ambient.thisOne;
     this.#select.addEventListener("change", () => {
       const index = Number(this.#select.value);
       stack.markAmbient(this.#files[index]);
@@ -58,12 +59,7 @@ export class AmbientChoice {
 /** What a choice means for these photographs. */
 function wordsOf(choice: string, marked: File | undefined, named: readonly File[]): string {
   const [first] = named;
-  if (marked) return `The light in ${marked.name} is subtracted from the other photographs.`;
-  if (choice === "auto")
-    return first
-      ? `The light in ${first.name} is subtracted from the photographs.`
-      : "If one of the photographs turns out to show the light of the room alone, it is subtracted from the others.";
-  return first
-    ? `By its name ${first.name} is one; as long as you say that there is none, it is left out.`
-    : "";
+  if (marked) return texts.ambient.marked(marked.name);
+  if (choice === "auto") return first ? texts.ambient.found(first.name) : texts.ambient.perhaps;
+  return first ? texts.ambient.leftOut(first.name) : "";
 }

@@ -2,26 +2,27 @@ import { byId, make } from "./dom.js";
 import { coverage } from "./lights/coverage.js";
 import { shape } from "./lights/hemisphere.js";
 import type { HandLight } from "./lights/light.js";
+import { texts } from "./texts/texts.js";
 
 /** Places of a lamp, each as degrees around and above the picture. */
 type Places = readonly (readonly [number, number])[];
 
 /** Places of which nothing is to be said, and some of which there is. */
-const EXAMPLES: Record<string, Places> = {
-  "All around, some higher": [...ring(8, 40, 0, 360), ...ring(4, 65, 20, 380)],
-  "From one side": ring(12, 45, 110, 250),
-  "Beside the camera": ring(12, 78, 0, 360),
-  Grazing: ring(12, 12, 0, 360),
-};
+const EXAMPLES = {
+  around: [...ring(8, 40, 0, 360), ...ring(4, 65, 20, 380)],
+  oneSide: ring(12, 45, 110, 250),
+  besideCamera: ring(12, 78, 0, 360),
+  grazing: ring(12, 12, 0, 360),
+} as const;
 
 /** Draws good and bad places of the lamp, with what the page would say of them after a run. */
 export function showCaptureHelp(): void {
-  const figures = Object.entries(EXAMPLES).map(([name, places]) => {
+  const names = Object.keys(EXAMPLES) as (keyof typeof EXAMPLES)[];
+  const figures = names.map((name) => {
+    const places = EXAMPLES[name];
     const [problem] = coverage(places.map(lightAt));
-    const words = problem
-      ? make("span", "", problem)
-      : make("span", "", "Every part of the object is lit from several sides.");
-    const mark = make("b", "", `${problem ? "✗" : "✓"} ${name}`);
+    const words = make("span", "", problem ?? texts.capture.good);
+    const mark = make("b", "", `${problem ? "✗" : "✓"} ${texts.capture[name]}`);
     const figure = make("figure", problem ? "bad" : "good", make("figcaption", "", mark, words));
     figure.prepend(picture(places));
     return figure;

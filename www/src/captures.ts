@@ -10,11 +10,25 @@ export interface Capture {
   readonly files: readonly File[];
 }
 
-/** What a drop may mean: the first is taken, the others are offered. */
+/** Where captures were looked for: folders or archives, by their names. */
+export interface Place {
+  readonly kind: "folders" | "archives";
+  readonly names: readonly string[];
+}
+
+/** What people must know about what was found. */
+export type Told =
+  | { readonly kind: "several"; readonly count: number; readonly place: Place; readonly taken: string }
+  | { readonly kind: "nested"; readonly folder: string }
+  | { readonly kind: "one-in-each"; readonly folders: number }
+  | { readonly kind: "no-photographs"; readonly place: Place; readonly others: number }
+  | { readonly kind: "empty-folder" };
+
+/** What a drop may mean: the first is taken, the others are offered. A worker says it, too, so it has no words. */
 export interface Found {
   readonly captures: readonly Capture[];
-  /** What people must know about it; empty where everything is as expected. */
-  readonly words: string;
+  /** Nothing where everything is as expected. */
+  readonly told?: Told;
 }
 
 /** Fewest photographs of a stack. */
@@ -35,27 +49,26 @@ const mayBePhotograph = (file: File) => !isOther(file);
  * The stacks among dropped files: those in the dropped folder itself, as on the command line; where there are too few,
  * those in the folders below it.
  *
- * @param where all of them lie, in words
+ * @param tops names of the dropped folders
+ * @param place where all of them lie
  */
 export function capturesAmong(
   placed: readonly Placed[],
   tops: readonly string[],
-  where = named(tops).replace(/^The/, "the"),
+  place: Place = { kind: "folders", names: tops },
 ): Found {
   const folders = byFolder(placed);
   const loose = folders.get("");
   const direct = tops.flatMap((top) => folders.get(top) ?? []);
   // Files that were dropped together belong together.
-  if (loose) return { captures: [{ folder: "", files: [...loose, ...direct] }], words: "" };
+  if (loose) return { captures: [{ folder: "", files: [...loose, ...direct] }] };
   const captures = stacksIn(folders);
   const [first] = captures;
-  if (first === undefined) return fewIn(folders, tops);
-  if (captures.length > 1) {
-    const words = `${captures.length} folders with photographs lie in ${where}. Taken: ${first.folder}.`;
-    return { captures, words };
-  }
-  const nested = !tops.includes(first.folder);
-  return { captures, words: nested ? `The photographs lie in ${first.folder}.` : "" };
+  if (first === undefined) return fewIn(folders, place);
+  if (captures.length > 1)
+    return { captures, told: { kind: "several", count: captures.length, place, taken: first.folder } };
+  if (tops.includes(first.folder)) return { captures };
+  return { captures, told: { kind: "nested", folder: first.folder } };
 }
 
 function byFolder(placed: readonly Placed[]): Map<string, File[]> {
@@ -78,7 +91,7 @@ function stacksIn(folders: ReadonlyMap<string, File[]>): Capture[] {
 }
 
 /** No folder holds three photographs: an archive, one photograph in each folder, or nothing. */
-function fewIn(folders: ReadonlyMap<string, File[]>, tops: readonly string[]): Found {
+function fewIn(folders: ReadonlyMap<string, File[]>, place: Place): Found {
   const filled = [...folders].filter(([, files]) => files.some(mayBePhotograph));
   const [only] = filled;
   if (filled.length >= FEWEST) {
@@ -87,26 +100,18 @@ function fewIn(folders: ReadonlyMap<string, File[]>, tops: readonly string[]): F
       files.map((file) => renamed(file, `${folder}/${file.name}`)),
     );
     return {
-      captures: [{ folder: named(tops), files }],
-      words: `The photographs lie in ${filled.length} folders.`,
+      captures: [{ folder: place.names.join(", "), files }],
+      told: { kind: "one-in-each", folders: filled.length },
     };
   }
   if (only) {
     const [folder, files] = only;
-    return { captures: [{ folder, files }], words: "" };
+    return { captures: [{ folder, files }] };
   }
   const others = [...folders.values()].flat().length;
-  const what =
-    others === 0
-      ? "is empty"
-      : `holds no photographs, only ${others === 1 ? "one other file" : `${others} other files`}`;
-  return { captures: [], words: `${named(tops)} ${what}. Nothing was taken.` };
+  return { captures: [], told: { kind: "no-photographs", place, others } };
 }
 
 function renamed(file: File, name: string): File {
   return new File([file], name, { type: file.type, lastModified: file.lastModified });
-}
-
-function named(tops: readonly string[]): string {
-  return tops.length === 1 ? `The folder ${tops[0]}` : `The ${tops.length} folders`;
 }

@@ -1,8 +1,9 @@
 import type { DeriveOptions, Estimate, MeshFileFormat } from "normalight";
-import { byId, say, wordsOf } from "./dom.js";
+import { byId, say, sayError } from "./dom.js";
 import type { Kept } from "./downloads.js";
 import type { Engine } from "./engine.js";
 import type { Depth, Format } from "./maps.js";
+import { texts } from "./texts/texts.js";
 
 /** What was made of a result. */
 export interface Made {
@@ -45,26 +46,21 @@ export class Derive {
     if (!estimate || this.#button.disabled) return undefined;
     this.#button.disabled = true;
     say(this.#problem, "");
-    say(this.#status, "Making the surface");
+    say(this.#status, texts.derive.making);
     try {
       const began = performance.now();
       const { depth, files, report } = await this.engine.with((normalight) =>
         normalight.derive(estimate, wishes),
       );
       if (this.#estimate !== estimate) return undefined;
-      const seconds = ((performance.now() - began) / 1000).toFixed(1);
+      const seconds = (performance.now() - began) / 1000;
       const [low, high] = report.range;
-      const parts =
-        report.parts === 1 ? "" : ` The object is in ${report.parts} parts, each with a height of its own.`;
-      say(
-        this.#status,
-        `Made in ${seconds} s: ${(high - low).toFixed(0)} pixels from back to front.${parts}`,
-      );
+      say(this.#status, texts.derive.made(seconds, high - low, report.parts));
       return { depth, files };
     } catch (error) {
       if (this.#estimate === estimate) {
         say(this.#status, "");
-        say(this.#problem, wordsOf(error));
+        sayError(this.#problem, error);
       }
       return undefined;
     } finally {

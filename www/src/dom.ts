@@ -1,3 +1,8 @@
+import { type ErrorCode, NormalightError } from "normalight";
+import { language } from "./texts/language.js";
+import { type Line, lineOf } from "./texts/lines.js";
+import { texts } from "./texts/texts.js";
+
 /** An element of the page that is known to be there. */
 export function byId<E extends HTMLElement = HTMLElement>(id: string): E {
   const element = document.getElementById(id);
@@ -20,7 +25,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 /** The drawing context of a canvas. */
 export function context(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   const drawing = canvas.getContext("2d");
-  if (drawing === null) throw new Error("this browser cannot draw");
+  if (drawing === null) throw new Error(texts.errors.noDrawing);
   return drawing;
 }
 
@@ -48,19 +53,69 @@ export function say(element: HTMLElement, words: string): void {
   element.textContent = words;
 }
 
-/** What begins a line about something doubtful. */
-const NOTICE = /^notice: /;
-
-/** Shows lines in a list, which is hidden while there are none; what is doubtful stands out. */
-export function sayLines(list: HTMLElement, lines: readonly string[]): void {
-  list.hidden = lines.length === 0;
-  const item = (line: string) => make("li", NOTICE.test(line) ? "doubtful" : "", line.replace(NOTICE, ""));
-  list.replaceChildren(...lines.map(item));
+/** Words that the estimator or the browser wrote: they are English whatever the page speaks, and are to be read so. */
+export function english(words: string): HTMLElement | string {
+  if (language === "en") return words;
+  const element = make("span", "", words);
+  element.lang = "en";
+  return element;
 }
 
-/** The lines about what is doubtful. */
-export function doubtful(lines: readonly string[]): string[] {
-  return lines.filter((line) => NOTICE.test(line));
+/** Stands for the reason where words are made around one. */
+const REASON = "\0";
+
+/** Why something went wrong, as it can be kept. */
+export interface Reason {
+  readonly words: string;
+  /** Whether others than the page have written them. */
+  readonly foreign: boolean;
+  /** What kind of failure the estimator calls it. */
+  readonly code: ErrorCode | undefined;
+}
+
+/** What an error says. */
+export function reasonOf(error: unknown): Reason {
+  const code = error instanceof NormalightError ? error.code : undefined;
+  return { words: wordsOf(error), foreign: isForeign(error), code };
+}
+
+/** Shows what went wrong. @param around makes the words that the reason stands in */
+export function sayError(element: HTMLElement, error: unknown, around?: (why: string) => string): void {
+  sayReason(element, reasonOf(error), around);
+}
+
+/** Shows why something went wrong. @param around makes the words that the reason stands in */
+export function sayReason(
+  element: HTMLElement,
+  { words, foreign, code }: Reason,
+  around = (why: string) => why,
+): void {
+  if (!foreign) {
+    say(element, around(words));
+    return;
+  }
+  const kind = code && texts.errors.before?.[code];
+  const [before = "", after = ""] = around(kind ? `${kind}: ${REASON}` : REASON).split(REASON);
+  element.hidden = false;
+  element.replaceChildren(before, english(words), after);
+}
+
+/** Whether others than the page have written what an error says. */
+function isForeign(error: unknown): boolean {
+  return [NormalightError, DOMException, TypeError, RangeError].some((kind) => error instanceof kind);
+}
+
+/** Shows lines in a list, which is hidden while there are none; what is doubtful stands out. */
+export function sayLines(list: HTMLElement, lines: readonly (Line | string)[]): void {
+  list.hidden = lines.length === 0;
+  const items = lines.map((line) => (typeof line === "string" ? lineOf(line) : line));
+  list.replaceChildren(
+    ...items.map((line) => {
+      const item = make("li", line.doubtful ? "doubtful" : "", line.words);
+      if (line.english) item.append(": ", english(line.english));
+      return item;
+    }),
+  );
 }
 
 /** What a failure says to people. */

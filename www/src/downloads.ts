@@ -1,39 +1,11 @@
-import type { OutputName } from "normalight";
-import { byId, make, say, wordsOf } from "./dom.js";
+import { byId, make, say, sayError } from "./dom.js";
+import { texts } from "./texts/texts.js";
 
 /** A file to keep. */
 export interface Kept {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
-
-/** What each file is, in few words. */
-const WORDS: Record<OutputName, string> & Record<string, string> = {
-  "normals.png": "normal map, 16 bit",
-  "normals.npy": "normals as numbers (NumPy)",
-  "lights.csv": "lights as a table",
-  "lights.lp": "lights for relighting programs",
-  "lights.svg": "light map",
-  "albedo.png": "colour without light",
-  "mask.png": "the object's pixels",
-  "normals-error.png": "how far off normals may be: grey / 4 degrees",
-  "normals-true-error.png": "how far off normals are: grey / 4 degrees",
-  "report.json": "settings, device, seconds",
-  "height.png": "depth, 16 bit grey",
-  "height.tiff": "depth in pixels, float",
-  "height.exr": "depth in pixels, float",
-  "depth.json": "what the depth means",
-  "map-normals.png": "normals for engines",
-  "map-normals.exr": "normals as numbers",
-  "map-height.png": "height for engines",
-  "map-albedo.png": "albedo for engines",
-  "map-curvature.png": "edges and hollows",
-  "map-occlusion.png": "ambient occlusion",
-  "mesh.glb": "surface for engines and viewers",
-  "mesh.ply": "surface for mesh programs",
-  "mesh.obj": "surface for any program",
-  "mesh.mtl": "material of mesh.obj",
-};
 
 const TYPES: Record<string, string> = {
   png: "image/png",
@@ -98,7 +70,9 @@ export class Downloads {
   #listNow(): void {
     for (const address of this.#addresses) URL.revokeObjectURL(address);
     const links = [...this.#files, ...this.#derived].map((file) => {
-      const words = [WORDS[file.name], sizeOf(file.bytes)].filter(Boolean).join(", ");
+      const words = [texts.downloads.files[file.name], texts.downloads.size(file.bytes.length)]
+        .filter(Boolean)
+        .join(", ");
       const link = linkOf(file);
       link.append(make("b", "", file.name), make("span", "", words));
       return link;
@@ -122,7 +96,7 @@ export class Downloads {
       if (turn !== this.#turn) return;
       press(linkOf(file));
     } catch (error) {
-      say(problem, wordsOf(error));
+      sayError(problem, error);
     }
   }
 }
@@ -163,9 +137,4 @@ function linkTo(name: string, content: Blob): HTMLAnchorElement {
   link.href = URL.createObjectURL(content);
   link.download = name;
   return link;
-}
-
-function sizeOf({ length }: Uint8Array): string {
-  if (length < 1000) return `${length} bytes`;
-  return length < 1e6 ? `${Math.round(length / 1000)} kB` : `${(length / 1e6).toFixed(1)} MB`;
 }

@@ -1,5 +1,6 @@
 import { type DeviceChoice, Normalight, NormalightError } from "normalight";
-import { byId, say, wordsOf } from "./dom.js";
+import { byId, english, say, sayError } from "./dom.js";
+import { texts } from "./texts/texts.js";
 
 /** The estimator on the chosen device, and the words about it. */
 export class Engine {
@@ -57,12 +58,13 @@ export class Engine {
 
   #start(): Promise<Normalight> {
     this.#live = undefined;
-    this.#show("loading", "Loading");
+    this.#show("loading", texts.engine.loading);
     say(this.#notice, "");
     const started = Normalight.create({
       device: this.#choice,
       onLoad: (fraction) => {
-        if (this.#current === started) this.#show("loading", `Loading ${Math.round(100 * fraction)} %`);
+        const percent = Math.round(100 * fraction);
+        if (this.#current === started) this.#show("loading", texts.engine.loadingPercent(percent));
       },
       onDevice: () => void started.then((normalight) => this.#tell(normalight)),
     });
@@ -74,7 +76,9 @@ export class Engine {
         this.loaded();
       },
       (error: unknown) => {
-        if (this.#current === started) this.#show("failed", wordsOf(error));
+        if (this.#current !== started) return;
+        this.#pill.dataset.state = "failed";
+        sayError(this.#words, error);
       },
     );
     return started;
@@ -84,11 +88,12 @@ export class Engine {
   #tell(normalight: Normalight): void {
     if (normalight !== this.#live) return;
     const { kind, notice } = normalight.device;
-    this.#show("ready", kind === "gpu" ? "Ready on the GPU" : "Ready on the CPU");
-    say(this.#notice, notice ?? "");
+    this.#show("ready", texts.engine.ready[kind]);
+    this.#notice.hidden = notice === undefined;
+    this.#notice.replaceChildren(notice ? (texts.engine.notices[notice] ?? english(notice)) : "");
   }
 
-  #show(state: "loading" | "ready" | "failed", words: string): void {
+  #show(state: "loading" | "ready", words: string): void {
     this.#pill.dataset.state = state;
     this.#words.textContent = words;
   }

@@ -29,9 +29,7 @@ export async function filesOfDrop(transfer: DataTransfer): Promise<Found> {
 export function filesOfFolder(chosen: readonly File[]): Found {
   const placed = chosen.map((file) => ({ folder: file.webkitRelativePath.replace(/\/?[^/]*$/, ""), file }));
   const top = placed[0]?.folder.split("/")[0];
-  return top
-    ? capturesAmong(placed, [top])
-    : { captures: [], words: "The folder is empty. Nothing was taken." };
+  return top ? capturesAmong(placed, [top]) : { captures: [], told: { kind: "empty-folder" } };
 }
 
 /** Files under names that none of the others has: pictures of the clipboard are all called the same. */

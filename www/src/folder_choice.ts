@@ -1,5 +1,6 @@
-import type { Capture, Found } from "./captures.js";
+import type { Capture, Found, Told } from "./captures.js";
 import { byId, make, say } from "./dom.js";
+import { texts } from "./texts/texts.js";
 
 /** Takes the stack that was found in a folder, and offers the others that lie beside it, or to estimate all. */
 export class FolderChoice {
@@ -23,7 +24,7 @@ export class FolderChoice {
 
   /** One of several captures was put on the bench. */
   taken(captures: readonly Capture[], capture: Capture): void {
-    say(this.#words, `Taken: ${capture.folder}.`);
+    say(this.#words, texts.folders.taken(capture.folder));
     this.#offer(captures, capture);
   }
 
@@ -32,11 +33,11 @@ export class FolderChoice {
     say(this.#words, words);
   }
 
-  found({ captures, words }: Found): void {
+  found({ captures, told }: Found): void {
     const [first] = captures;
     // Nothing was found: what is on the bench stays there.
     if (first) this.#take([...first.files]);
-    say(this.#words, words);
+    say(this.#words, told ? wordsFor(told) : "");
     this.#offer(captures, first);
   }
 
@@ -50,10 +51,10 @@ export class FolderChoice {
     [this.#captures, this.#taken] = [captures, taken];
     this.#others.hidden = captures.length < 2;
     this.#all.hidden = captures.length < 2;
-    this.#estimateAll.textContent = `Estimate all ${captures.length}`;
+    this.#estimateAll.textContent = texts.folders.estimateAllCount(captures.length);
     const buttons = (captures.length < 2 ? [] : captures).map((capture) => {
       const { folder, files } = capture;
-      const button = make("button", "quiet", `${folder} (${files.length} files)`);
+      const button = make("button", "quiet", texts.folders.folder(folder, files.length));
       button.type = "button";
       button.setAttribute("aria-pressed", String(capture === taken));
       button.addEventListener("click", () => {
@@ -64,5 +65,22 @@ export class FolderChoice {
       return button;
     });
     this.#others.replaceChildren(...buttons);
+  }
+}
+
+/** What was found, in words. */
+function wordsFor(told: Told): string {
+  const { folders } = texts;
+  switch (told.kind) {
+    case "several":
+      return folders.several(told.count, told.place, told.taken);
+    case "nested":
+      return folders.nested(told.folder);
+    case "one-in-each":
+      return folders.oneInEach(told.folders);
+    case "no-photographs":
+      return told.others === 0 ? folders.empty(told.place) : folders.noPhotographs(told.place, told.others);
+    case "empty-folder":
+      return folders.emptyFolder;
   }
 }

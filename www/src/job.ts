@@ -3,6 +3,8 @@ import { croppedMask } from "./crop/mask.js";
 import type { Engine } from "./engine.js";
 import { shrunk } from "./large/shrink.js";
 import { type Taken, takenWords } from "./large/taken.js";
+import { en } from "./texts/en/index.js";
+import { texts } from "./texts/texts.js";
 
 /** What a run is made of. */
 export interface Job {
@@ -39,14 +41,14 @@ export async function doJob(engine: Engine, job: Job, follow: Follow): Promise<D
   const { files, pictures, taken } = job;
   const { signal } = follow;
   const { color = "auto" } = job.options;
-  const what = taken.crop ? "Cropping photographs" : "Making photographs smaller";
+  const words = taken.crop ? texts.large.cropping : texts.large.shrinking;
   const used = await shrunk(files, pictures, taken, color === "linear", signal, (done, of) =>
-    follow.prepare(`${what}: ${done + 1} of ${of}`),
+    follow.prepare(words(done + 1, of)),
   );
   const { crop } = taken;
   let mask: File | undefined;
   if (crop && job.mask) {
-    follow.prepare("Cropping the mask");
+    follow.prepare(texts.large.croppingMask);
     mask = await croppedMask(engine, files, job.mask, color, { ...taken, crop }, signal);
   }
   signal.throwIfAborted();
@@ -58,13 +60,14 @@ export async function doJob(engine: Engine, job: Job, follow: Follow): Promise<D
     onPlan: (plan, words) => follow.plan(plan, words),
   };
   const estimate = await engine.with((normalight) => normalight.estimate(used, options));
-  const size = takenWords(taken);
-  return { estimate: size ? said(estimate, taken, size) : estimate, used, size, taken };
+  return { estimate: said(estimate, taken), used, size: takenWords(taken), taken };
 }
 
-/** An estimate that says how photographs were taken, in words and in its report. */
-function said(estimate: Estimate, { crop }: Taken, size: string): Estimate {
-  const words = `photographs: taken ${size}, as PNG of 8 bits that the page made of them`;
+/** An estimate that says how photographs were taken: beside the estimator's words and in its report, so in English. */
+function said(estimate: Estimate, taken: Taken): Estimate {
+  const size = takenWords(taken, en);
+  if (size === "") return estimate;
+  const { crop } = taken;
   const text = new TextEncoder();
   const files = estimate.files.map((file) => {
     if (file.name !== "report.json") return file;
@@ -75,7 +78,7 @@ function said(estimate: Estimate, { crop }: Taken, size: string): Estimate {
     };
     return { ...file, bytes: text.encode(`${JSON.stringify(report, null, 2)}\n`) };
   });
-  return { ...estimate, files, planWords: [words, ...estimate.planWords] };
+  return { ...estimate, files, planWords: [en.large.planLine(size), ...estimate.planWords] };
 }
 
 /** Seconds of all stages. */

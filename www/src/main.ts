@@ -3,11 +3,12 @@ import { areArchives, capturesOf } from "./archives/archives.js";
 import { showCaptureHelp } from "./capture_help.js";
 import type { Capture, Found } from "./captures.js";
 import { CropChoice } from "./crop/choice.js";
-import { byId, wordsOf } from "./dom.js";
+import { byId } from "./dom.js";
 import { Engine } from "./engine.js";
 import { filesOfDrop, filesOfFolder, numbered } from "./files.js";
 import { FolderChoice } from "./folder_choice.js";
 import { Intro } from "./intro.js";
+import { LanguageChoice } from "./language_choice.js";
 import { SizeChoice } from "./large/size.js";
 import { isChanged, LightHand } from "./lights/hand.js";
 import { toCsv } from "./lights/light_text.js";
@@ -24,6 +25,10 @@ import { Session } from "./session/session.js";
 import { Settings } from "./settings.js";
 import { Stack } from "./stack.js";
 import { nameOf } from "./stack_name.js";
+import { translatePage } from "./texts/page.js";
+import { texts } from "./texts/texts.js";
+
+translatePage();
 
 const form = byId<HTMLFormElement>("bench");
 const intro = new Intro();
@@ -59,7 +64,8 @@ const settings = new Settings(form, rigs, ambient, {
 const result = new ResultView(engine);
 const crop = new CropChoice(engine, stack, () => {
   size.cropped();
-  session.changed("stack");
+  // Else the stack is kept with all that is known of it once it is planned.
+  if (stack.planned) session.changed("stack");
 });
 const size = new SizeChoice(form, engine, stack, settings, crop);
 const run = new Run(form, engine, stack, settings, size, (done) => {
@@ -90,7 +96,7 @@ form.addEventListener("change", ({ target }) => {
 });
 
 function turnGreen(): void {
-  result.turnGreen(format()).catch((error) => run.fail(wordsOf(error)));
+  result.turnGreen(format()).catch((error) => run.fail(error));
 }
 
 run.stackPlanned();
@@ -143,7 +149,15 @@ function take(files: File[]): void {
   folders.forget();
   replace(files);
 }
-const queue = new Queue({ engine, settings, size, run, format, show: showOf });
+const queue = new Queue({
+  engine,
+  settings,
+  size,
+  run,
+  format,
+  show: showOf,
+  changed: () => session.changed("queue"),
+});
 const folders = new FolderChoice(take, (captures, own) => void queue.start(captures, own));
 
 /** Shows a result of the queue, and puts its stack on the bench. */
@@ -164,14 +178,14 @@ async function takeFound(found: Found): Promise<void> {
     folders.found(found);
     return;
   }
-  folders.wait("Looking into the archive.");
+  folders.wait(texts.folders.lookingIntoArchive);
   try {
     const inside = await capturesOf(only.files);
     if (run.underWay) run.ignore();
     else folders.found(inside ?? found);
   } catch (error) {
     folders.wait("");
-    run.fail(wordsOf(error));
+    run.fail(error);
   }
 }
 
@@ -184,8 +198,11 @@ const session = new Session({
     settings: settings.kept,
     outcome,
     hand: hand.held,
+    queue: queue.kept,
   }),
   restore,
+  keptQueue: (term) => queue.keptFor(term),
+  cleared: () => queue.sweep(),
 });
 
 /** Puts the session that was kept on the bench. */
@@ -204,13 +221,19 @@ function restore(bench: Bench): void {
     // Their result was too large to be kept: the next one begins with them.
     settings.handLights(new File([toCsv(bench.hand.lights)], "lights.csv", { type: "text/csv" }));
   }
+  if (bench.queue) queue.restore(bench.queue, bench.outcome);
 }
+
+new LanguageChoice({
+  busy: () => run.underWay,
+  keep: () => session.keep(() => queue.lasts),
+});
 
 // Nothing is lost with an empty bench.
 const offline = new Offline(() => stack.files.length === 0 && outcome === undefined && !run.underWay);
 
 connect("pick-files", "files", (files) => {
-  if (areArchives(files)) void takeFound({ captures: [{ folder: "", files }], words: "" });
+  if (areArchives(files)) void takeFound({ captures: [{ folder: "", files }] });
   else take(files);
 });
 connect("pick-folder", "folder", (files) => void takeFound(filesOfFolder(files)));
@@ -252,6 +275,6 @@ page.addEventListener("drop", async (event) => {
   try {
     await takeFound(await filesOfDrop(event.dataTransfer));
   } catch (error) {
-    run.fail(wordsOf(error));
+    run.fail(error);
   }
 });

@@ -1,6 +1,7 @@
 import type { Estimate } from "normalight";
 import type { Photographs } from "./photographs.js";
 import type { Distrust, GreyMap } from "./relight/distrust.js";
+import { texts } from "./texts/texts.js";
 import type { Layer } from "./viewer/choice.js";
 import { short } from "./viewer/histogram.js";
 import { BLUE, codes, GREEN, RED, Still, type Values, WHITE } from "./viewer/picture.js";
@@ -52,23 +53,23 @@ export function layersOf(sources: Sources): Layer[] {
   const { normalErrors, trueErrors, trueErrorMap } = estimate;
   if (normalErrors) {
     const values = normalErrors.data.map((error) => (error === 0 ? Number.NaN : error));
-    layers.push(errorLayer(estimate, values, "errors", "Expected error of the normals"));
+    layers.push(errorLayer(estimate, values, "errors", texts.maps.expectedErrors));
   }
   if (trueErrors && trueErrorMap) {
-    const name = `Error of the normals against ${trueErrors.file}`;
+    const name = texts.maps.trueErrors(trueErrors.file);
     layers.push(errorLayer(estimate, trueErrorMap.data, "true-errors", name));
   }
   layers.push({
     id: "distrust",
-    name: "Where to distrust",
+    name: texts.maps.distrust,
     load: async () => {
-      const words = (done: number, of: number) => told(`Comparing photographs: ${done} of ${of}`);
+      const words = (done: number, of: number) => told(texts.maps.comparing(done, of));
       return residualPicture(await distrust.mean(words));
     },
   });
   layers.push({
     id: "residual",
-    name: "Residual of the replayed photograph",
+    name: texts.maps.residual,
     load: async () => residualPicture(await distrust.of(replayed())),
   });
   for (const [index, name] of photographs.names.entries()) {
@@ -77,7 +78,7 @@ export function layersOf(sources: Sources): Layer[] {
       const words = (pixel: number) => colourWords(...rgbAt(rgba, pixel));
       return new Still(width, height, rgba, { channels: codes(rgba), range: [0, 255], words });
     };
-    layers.push({ id: photographId(index), name, group: "Photographs", load });
+    layers.push({ id: photographId(index), name, group: texts.maps.photographs, load });
   }
   return layers;
 }
@@ -109,24 +110,24 @@ function normalsLayer({ estimate, format }: Sources): Layer {
     words: (pixel) => [...data.subarray(3 * pixel, 3 * pixel + 3)].map(component).join(" "),
   };
   const load = () => new Still(width, height, normalColours(data, format), values);
-  return { id: "normals", name: `Normals, green is ${format === "directx" ? "down" : "up"}`, load };
+  return { id: "normals", name: texts.maps.normals[format], load };
 }
 
 function albedoLayer({ width, height, albedo }: Estimate): Layer {
   const words = (pixel: number) => colourWords(...rgbAt(albedo, pixel));
   const values: Values = { channels: codes(albedo), range: [0, 255], words };
-  return { id: "albedo", name: "Albedo", load: () => new Still(width, height, albedo, values) };
+  return { id: "albedo", name: texts.maps.albedo, load: () => new Still(width, height, albedo, values) };
 }
 
 function depthLayer({ width, height }: Estimate, { data }: Depth): Layer {
   const range = [quantile(data, 0.002), quantile(data, 0.998)] as const;
   const values: Values = {
-    channels: [{ name: "depth", colour: WHITE, at: (pixel) => data[pixel] ?? Number.NaN }],
+    channels: [{ name: texts.maps.channels.depth, colour: WHITE, at: (pixel) => data[pixel] ?? Number.NaN }],
     range,
     words: (pixel) => `${short(data[pixel] ?? Number.NaN)} px`,
   };
   const load = () => new Still(width, height, greyed(data, range), values);
-  return { id: "depth", name: "Depth", load };
+  return { id: "depth", name: texts.maps.depth, load };
 }
 
 /** Errors of normals in degrees: those to be expected, by how far apart the views are that they are means of, or true ones. */
@@ -134,7 +135,9 @@ function errorLayer({ width, height }: Estimate, values: Float32Array, id: strin
   const range = [0, quantile(values, 0.998)] as const;
   const load = () =>
     new Still(width, height, ramped(values, range), {
-      channels: [{ name: "degrees", colour: WHITE, at: (pixel) => values[pixel] ?? Number.NaN }],
+      channels: [
+        { name: texts.maps.channels.degrees, colour: WHITE, at: (pixel) => values[pixel] ?? Number.NaN },
+      ],
       range,
       words: (pixel) => `${short(values[pixel] ?? Number.NaN)}°`,
     });
@@ -146,7 +149,7 @@ function residualPicture({ width, height, values }: GreyMap): Still {
   const range = [0, Math.max(quantile(values, 0.98), 0.05)] as const;
   const percent = (pixel: number) => 100 * (values[pixel] ?? Number.NaN);
   return new Still(width, height, ramped(values, range), {
-    channels: [{ name: "difference in %", colour: WHITE, at: percent }],
+    channels: [{ name: texts.maps.channels.difference, colour: WHITE, at: percent }],
     range: [0, 100 * range[1]],
     words: (pixel) => `${short(percent(pixel))} %`,
   });

@@ -1,5 +1,6 @@
 import type { Answered, Asked } from "../service-worker/messages.js";
 import { byId, say } from "./dom.js";
+import { texts } from "./texts/texts.js";
 
 /** The page kept in the browser for work without a network, and what is said about its versions. */
 export class Offline {
@@ -59,7 +60,7 @@ export class Offline {
     // Without a version before there is none to be replaced.
     if (!waiting || !navigator.serviceWorker.controller) return;
     this.#waiting = waiting;
-    this.#versionWords.textContent = "A new version is here: reload to use it.";
+    this.#versionWords.textContent = texts.offline.newVersion;
     this.look();
   }
 
@@ -69,10 +70,9 @@ export class Offline {
 
   #hear(answer: Answered): void {
     if (answer === "kept") {
-      say(this.#words, "This page is kept in this browser and works without a network.");
+      say(this.#words, texts.offline.kept);
       return;
     }
-    this.#versionWords.textContent =
-      "A new version is here. Other windows still use the one before: close them, then reload to use it.";
+    this.#versionWords.textContent = texts.offline.newVersionWaits;
   }
 }

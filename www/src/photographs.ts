@@ -1,5 +1,6 @@
 import type { ColorMode, Estimate, Thumbnail } from "normalight";
 import type { Engine } from "./engine.js";
+import { texts } from "./texts/texts.js";
 
 /** Whole photographs that are kept for showing them again. */
 const KEPT = 4;
@@ -45,7 +46,7 @@ export class Photographs {
   /** A photograph with so many pixels on its longer side at most. */
   async small(index: number, side: number, signal?: AbortSignal): Promise<Thumbnail> {
     const file = this.#files[index];
-    if (!file) throw new Error("it is no longer among the files");
+    if (!file) throw new Error(texts.photographs.gone);
     const options = { color: this.#color, side, ...(signal ? { signal } : {}) };
     return await this.engine.with((normalight) => normalight.thumbnail(file, options));
   }

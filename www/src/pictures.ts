@@ -8,6 +8,7 @@ import { Replay } from "./relight/replay.js";
 import type { Outcome } from "./result.js";
 import type { Relief } from "./solid/grid.js";
 import { Solid } from "./solid/solid.js";
+import { texts } from "./texts/texts.js";
 import type { Layer } from "./viewer/choice.js";
 import { Viewer } from "./viewer/viewer.js";
 
@@ -25,7 +26,7 @@ export class Pictures {
   readonly #viewer = new Viewer(this.relighting);
   readonly #replay = new Replay(this.relighting, (index) => this.#replayed(index));
   readonly #solid = new Solid(() => this.#relief());
-  readonly #relitLayer: Layer = { id: "relit", name: "Relit", load: () => this.relighting.picture };
+  readonly #relitLayer: Layer = { id: "relit", name: texts.maps.relit, load: () => this.relighting.picture };
   #current: Current | undefined;
   #format: Format = "opengl";
 

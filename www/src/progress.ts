@@ -1,5 +1,6 @@
 import { type Progress, STAGES, type Stage } from "normalight";
 import { byId, make } from "./dom.js";
+import { texts } from "./texts/texts.js";
 import { timeLeft } from "./time_left.js";
 
 /** The bar of a run and its stages. */
@@ -17,7 +18,7 @@ export class ProgressView {
   #which = "";
 
   constructor() {
-    for (const stage of STAGES) this.#items.set(stage, make("li", "", stage));
+    for (const stage of STAGES) this.#items.set(stage, make("li", "", texts.run.stages[stage]));
     byId("stages").append(...this.#items.values());
   }
 
@@ -25,7 +26,7 @@ export class ProgressView {
   start(which = ""): void {
     this.#which = which;
     this.#current = undefined;
-    this.prepare("Waiting for the estimator");
+    this.prepare(texts.run.waiting);
     this.#left.textContent = "";
     this.#began = 0;
     this.#bar.removeAttribute("value");
@@ -35,7 +36,7 @@ export class ProgressView {
 
   /** Says what is done before the run. */
   prepare(words: string): void {
-    this.#words.textContent = this.#which ? `${this.#which}: ${words}` : words;
+    this.#words.textContent = this.#which ? texts.run.inOneOf(this.#which, words) : words;
   }
 
   show({ stage, fraction, stageFraction }: Progress): void {
@@ -45,7 +46,7 @@ export class ProgressView {
     if (stage === this.#current) return;
     this.#current = stage;
     // Read aloud, so only when there is something new to say.
-    this.prepare(`Estimating: ${stage}`);
+    this.prepare(texts.run.estimating(stage));
     let state = "done";
     for (const [name, item] of this.#items) {
       if (name === stage) state = "now";

@@ -4,9 +4,11 @@ import { byId, make, say, sayLines } from "./dom.js";
 import { Downloads, fileNameOf, type Kept } from "./downloads.js";
 import type { Engine } from "./engine.js";
 import { type Done, total } from "./job.js";
+import { takenWords } from "./large/taken.js";
 import { type Format, normalColours } from "./maps.js";
 import { Pictures } from "./pictures.js";
 import { sameFiles } from "./stack_name.js";
+import { texts } from "./texts/texts.js";
 
 /** What a run was made of and gave. */
 export interface Outcome extends Done {
@@ -59,13 +61,15 @@ export class ResultView {
     this.#outcome = outcome;
     this.#format = format;
     byId("result").hidden = false;
-    byId("result-title").textContent = name === "" ? "Result" : `Result of ${name}`;
+    byId("result-title").textContent = name === "" ? texts.result.title : texts.result.titleOf(name);
     this.stackIs(outcome.files);
     this.#pictures.format = format;
     this.#pictures.show(outcome);
     this.#derive.show(estimate);
-    showFacts(estimate, outcome.size);
-    sayLines(byId("plan"), estimate.planWords);
+    // Said anew: the page may speak another language than it did when it was made.
+    const taken = takenWords(outcome.taken);
+    showFacts(estimate, taken);
+    sayLines(byId("plan"), texts.plan.ofRun(estimate.plan, estimate.planWords, taken));
     showSeconds(estimate);
     this.#downloads.show(estimate.files, name);
     // In the next frame, which lays out the page anyway: finding out where things are would do that now, and once more then.
@@ -80,9 +84,7 @@ export class ResultView {
     const { name, files: own } = this.#outcome;
     const stale = !sameFiles(files, own);
     byId("result").classList.toggle("old", stale);
-    const whose = name === "" ? "the photographs before" : name;
-    const words = `This is the result of ${whose}. The photographs have changed since; a new run replaces it.`;
-    say(byId("result-stale"), stale ? words : "");
+    say(byId("result-stale"), stale ? texts.result.stale(name) : "");
   }
 
   /** `normals.png`; as the estimate left it, where that has green the same way. */
@@ -93,7 +95,7 @@ export class ResultView {
   }
 
   async #share(): Promise<Kept> {
-    if (!this.#outcome) throw new Error("there is no result");
+    if (!this.#outcome) throw new Error(texts.result.none);
     const { name, estimate } = this.#outcome;
     const { width, height, normalMap, albedo } = estimate;
     const { sharePage } = await import("./out/share.js");
@@ -121,16 +123,18 @@ function lookAt(title: HTMLElement): void {
   if (top < 0 || top > innerHeight * 0.6) byId("result").scrollIntoView({ behavior });
 }
 
-function showFacts(estimate: Estimate, size: string): void {
-  const { width, height, lights, mask, device, quality } = estimate;
+/** @param taken how the page took the photographs, in words */
+function showFacts(estimate: Estimate, taken: string): void {
+  const { width, height, lights, mask, device, quality, trueErrors } = estimate;
+  const words = texts.result;
   const facts: [string, string][] = [
-    ["Photographs", `${lights.length} of ${width} × ${height} pixels${size && `, ${size}`}`],
-    ["Mask", `${mask.words}, ${mask.pixels.toLocaleString("en")} pixels`],
-    ["Device", device],
-    ["Quality", quality],
-    ["Errors to expect", errorWords(estimate)],
-    ...trueErrorWords(estimate),
-    ["Time", `${total(estimate).toFixed(2)} s`],
+    [words.photographs, words.size(lights.length, width, height, taken)],
+    [words.mask, words.maskOf(mask)],
+    [words.device, device],
+    [words.quality, words.qualityOf(quality)],
+    [words.expected, errorWords(estimate)],
+    ...(trueErrors ? [[words.errors, words.errorsOf(trueErrors)] as [string, string]] : []),
+    [words.time, words.seconds(total(estimate))],
   ];
   byId("facts").replaceChildren(
     ...facts.map(([name, value]) => make("div", "", make("dt", "", name), make("dd", "", value))),
@@ -140,19 +144,10 @@ function showFacts(estimate: Estimate, size: string): void {
 /** How far off lights and normals may be, in the mean. */
 function errorWords({ expectedErrors: { lights, normals } }: Estimate): string {
   const words = [
-    ...(typeof lights === "number" ? [`lights ${lights.toFixed(0)}°`] : []),
-    ...(typeof normals === "number" ? [`normals ${normals.toFixed(0)}°`] : []),
+    ...(typeof lights === "number" ? [texts.result.expectedLights(lights)] : []),
+    ...(typeof normals === "number" ? [texts.result.expectedNormals(normals)] : []),
   ];
-  return words.join(", ") || "unknown";
-}
-
-/** How far off the normals are, where true ones were among the files. */
-function trueErrorWords({ trueErrors }: Estimate): [string, string][] {
-  if (!trueErrors) return [];
-  const { file, mean, median, shares } = trueErrors;
-  const close = (100 * (shares[0] ?? 0)).toFixed(0);
-  const words = `${mean.toFixed(2)}° on average, ${median.toFixed(2)}° in the median, ${close} % under 11.25°`;
-  return [["Errors", `normals, against ${file}: ${words}`]];
+  return words.join(", ") || texts.result.unknown;
 }
 
 /** The stages side by side on one bar, as long as they took, and in words below it. */
@@ -165,7 +160,8 @@ function showSeconds(estimate: Estimate): void {
     const part = make("i", `stage-${index}`);
     part.style.flexGrow = String(Math.max(seconds / whole, 0.002));
     strip.append(part);
-    list.append(make("li", "", make("i", `stage-${index}`), `${stage} `, make("b", "", seconds.toFixed(2))));
+    const time = make("b", "", texts.result.stageSeconds(seconds));
+    list.append(make("li", "", make("i", `stage-${index}`), `${texts.run.stages[stage]} `, time));
   }
   byId("seconds").replaceChildren(strip, list);
 }

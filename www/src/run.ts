@@ -1,12 +1,13 @@
-import type { EstimateOptions } from "normalight";
-import { byId, doubtful, say, sayLines, wordsOf } from "./dom.js";
+import type { EstimateOptions, InputPlan } from "normalight";
+import { byId, say, sayError, sayLines } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { type Done, doJob, type Job, total } from "./job.js";
 import type { SizeChoice } from "./large/size.js";
-import { AS_THEY_ARE, type Taken } from "./large/taken.js";
+import { AS_THEY_ARE, type Taken, takenWords } from "./large/taken.js";
 import { ProgressView } from "./progress.js";
 import type { Settings } from "./settings.js";
 import type { Stack } from "./stack.js";
+import { texts } from "./texts/texts.js";
 
 /** Files and settings in place of those on the page. */
 interface Given {
@@ -48,8 +49,8 @@ export class Run {
   }
 
   /** Says what went wrong. */
-  fail(words: string): void {
-    say(this.#problem, words);
+  fail(error: unknown): void {
+    sayError(this.#problem, error);
   }
 
   /** Says what became of several runs. */
@@ -74,10 +75,7 @@ export class Run {
 
   /** Files came while a run is under way, which they would replace. */
   ignore(): void {
-    say(
-      this.#status,
-      "A run is under way: what was dropped is ignored. Cancel the run first, then try again.",
-    );
+    say(this.#status, texts.run.dropIgnored);
   }
 
   /** Leaving the page would end the run: the browser asks first. */
@@ -106,7 +104,7 @@ export class Run {
 
   async #run(given?: Given): Promise<void> {
     if (this.underWay) {
-      say(this.#status, "A run is under way: wait for its end, or cancel it first.");
+      say(this.#status, texts.run.underWay);
       return;
     }
     if (this.stack.lacking !== "") return;
@@ -121,12 +119,12 @@ export class Run {
       const job = given ? { ...given, pictures, mask: undefined, taken: this.#taken } : this.job;
       try {
         [, done] = await this.follow(async () => job, signal);
-        say(this.#status, `Done in ${total(done.estimate).toFixed(1)} s.`);
+        say(this.#status, texts.run.done(total(done.estimate)));
         // What the lights that were found are worth is known only now.
-        sayLines(this.#notices, doubtful(done.estimate.planWords));
+        this.#tellNotices(done.estimate.plan, done.estimate.planWords, job.taken);
       } catch (error) {
-        if (signal.aborted) say(this.#status, "Cancelled. The photographs are still here.");
-        else say(this.#problem, wordsOf(error));
+        if (signal.aborted) say(this.#status, texts.run.cancelled);
+        else this.fail(error);
       }
     });
     // Only now: the page has its final shape, and the focus goes to the result.
@@ -160,12 +158,21 @@ export class Run {
       progress: (progress) => this.#progress.show(progress),
       plan: (plan, words) => {
         if (which) return;
-        sayLines(this.#notices, doubtful(words));
+        this.#tellNotices(plan, words, job.taken);
         this.stack.mark(plan.notices);
       },
     });
     this.size.learn(done.estimate);
     return [job, done];
+  }
+
+  /** Shows what is doubtful. */
+  #tellNotices(plan: InputPlan, words: readonly string[], taken: Taken): void {
+    const lines = texts.plan.ofRun(plan, words, takenWords(taken));
+    sayLines(
+      this.#notices,
+      lines.filter(({ doubtful }) => doubtful),
+    );
   }
 
   /** A result is shown that was made like this. */

@@ -1,5 +1,6 @@
-import { byId, make, say, wordsOf } from "./dom.js";
+import { byId, make, say, sayError } from "./dom.js";
 import { fetchSample, listSamples, type Sample, thumbnailOf } from "./samples.js";
+import { texts } from "./texts/texts.js";
 
 /** The samples to choose from, and the fetching of the chosen one. */
 export class SampleChoice {
@@ -37,7 +38,7 @@ export class SampleChoice {
         ...[...this.#buttons.values()].map((button) => make("li", "", button)),
       );
     } catch (error) {
-      say(this.#problem, wordsOf(error));
+      sayError(this.#problem, error);
     }
     byId("samples").hidden = false;
   }
@@ -65,7 +66,7 @@ export class SampleChoice {
     const fetching = new AbortController();
     this.#fetching = fetching;
     say(this.#problem, "");
-    this.#words.textContent = `Fetching ${sample.title}`;
+    this.#words.textContent = texts.samples.fetching(sample.title);
     this.#bar.value = 0;
     this.#progress.hidden = false;
     let files: File[] | undefined;
@@ -74,7 +75,7 @@ export class SampleChoice {
         if (this.#fetching === fetching) this.#bar.value = fraction;
       });
     } catch (error) {
-      if (!fetching.signal.aborted) say(this.#problem, wordsOf(error));
+      if (!fetching.signal.aborted) sayError(this.#problem, error);
     }
     // Another sample was chosen meanwhile: the rest is about that one.
     if (this.#fetching !== fetching) return;

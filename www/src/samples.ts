@@ -1,5 +1,6 @@
 import type { ColorMode } from "normalight";
 import { wordsOf } from "./dom.js";
+import { texts } from "./texts/texts.js";
 
 /** Where the samples and their list lie: beside the page. */
 const FOLDER = new URL("samples/", document.baseURI);
@@ -28,7 +29,7 @@ export class SampleError extends Error {
   readonly kind: SampleErrorKind;
 
   constructor(kind: SampleErrorKind, path: string, reason: string) {
-    super(`The sample's file ${path} cannot be fetched: ${reason}`);
+    super(texts.samples.failed(path, reason));
     this.kind = kind;
   }
 }
@@ -38,7 +39,8 @@ export async function listSamples(): Promise<Sample[]> {
   const path = "samples.json";
   const list = await fetched(path);
   try {
-    return JSON.parse(await list.text()) as Sample[];
+    const samples = JSON.parse(await list.text()) as Sample[];
+    return samples.map((sample) => ({ ...sample, ...texts.samples.words[sample.name] }));
   } catch (error) {
     throw new SampleError("broken", path, wordsOf(error));
   }
@@ -86,12 +88,11 @@ async function fetched(path: string, signal?: AbortSignal): Promise<Blob> {
     content = await response.blob();
   } catch (error) {
     signal?.throwIfAborted();
-    throw new SampleError("unreachable", path, `no connection (${wordsOf(error)})`);
+    throw new SampleError("unreachable", path, texts.samples.noConnection(wordsOf(error)));
   }
   if (!response.ok)
     throw new SampleError("missing", path, `${response.status} ${response.statusText}`.trim());
   // Some servers answer with a page of theirs instead of an error.
-  if (content.type.startsWith("text/html"))
-    throw new SampleError("missing", path, "the answer is a web page");
+  if (content.type.startsWith("text/html")) throw new SampleError("missing", path, texts.samples.webPage);
   return content;
 }

@@ -4,11 +4,15 @@ import { byId, chosen } from "./dom.js";
 import { lightsOf, toCsv } from "./lights/light_text.js";
 import { RigChoice } from "./lights/rig_choice.js";
 import type { Rigs } from "./lights/rigs.js";
+import { texts } from "./texts/texts.js";
 
-/** A file of a setting, and how the page calls it. */
+/** How the page made a file. */
+type Made = keyof typeof texts.settings.made;
+
+/** A file of a setting: the user's, or one that the page made. */
 interface KeptFile {
   readonly file: File;
-  readonly words: string;
+  readonly made?: Made | undefined;
 }
 
 /** The form's settings as they are kept for a reload. */
@@ -27,7 +31,7 @@ class FileSetting {
   readonly #form: HTMLFormElement;
   readonly #name: string;
   readonly #label: HTMLElement;
-  #file: File | undefined;
+  #kept: KeptFile | undefined;
 
   /**
    * @param changed hears of another file
@@ -50,41 +54,41 @@ class FileSetting {
       const [file] = input.files ?? [];
       input.value = "";
       if (!file) return;
-      this.#file = await convert(file);
+      this.#kept = { file: await convert(file) };
       this.#label.textContent = file.name;
       changed();
     });
     input.addEventListener("cancel", () => {
-      if (!this.#file) form.querySelector<HTMLInputElement>(`input[name="${name}"]`)?.click();
+      if (!this.#kept) form.querySelector<HTMLInputElement>(`input[name="${name}"]`)?.click();
     });
   }
 
-  /** Takes a file that the page made, under a name of ours. */
-  give(file: File, words: string): void {
-    this.#file = file;
-    this.#label.textContent = words;
+  /** Takes a file that the page made or has kept. */
+  give(kept: KeptFile): void {
+    this.#kept = kept;
+    this.#label.textContent = kept.made ? texts.settings.made[kept.made] : kept.file.name;
     const radio = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"][value="file"]`);
     if (radio) radio.checked = true;
   }
 
   /** The file belonged to other photographs: the first choice counts again. */
   forget(): void {
-    if (!this.#file) return;
-    this.#file = undefined;
-    this.#label.textContent = "File…";
+    if (!this.#kept) return;
+    this.#kept = undefined;
+    this.#label.textContent = texts.settings.file;
     if (chosen(this.#form, this.#name) !== "file") return;
     const first = this.#form.querySelector<HTMLInputElement>(`input[name="${this.#name}"]`);
     if (first) first.checked = true;
   }
 
-  /** The file that was chosen, used or not, and how it is called. */
+  /** The file that was chosen, used or not. */
   get kept(): KeptFile | undefined {
-    return this.#file && { file: this.#file, words: this.#label.textContent ?? "" };
+    return this.#kept;
   }
 
   /** The file, when one was chosen and is to be used. */
   get file(): File | undefined {
-    return chosen(this.#form, this.#name) === "file" ? this.#file : undefined;
+    return chosen(this.#form, this.#name) === "file" ? this.#kept?.file : undefined;
   }
 }
 
@@ -134,13 +138,13 @@ export class Settings {
   /** Takes a mask that was drawn on the photographs. */
   drawnMask(mask: File): void {
     this.#drawn = mask;
-    this.#mask.give(mask, "Drawn");
+    this.#mask.give({ file: mask, made: "drawn" });
     this.#changed.any();
   }
 
   /** Takes lights that were set by hand, for the next run. */
   handLights(lights: File): void {
-    this.#lights.give(lights, "Set by hand");
+    this.#lights.give({ file: lights, made: "hand" });
     this.#showAxes();
     this.#changed.any();
   }
@@ -178,9 +182,9 @@ export class Settings {
   /** Sets everything as it was kept. */
   restore({ values, rig, ownColor, mask, maskIsDrawn, lights }: KeptSettings): void {
     const before = { device: this.device, color: this.color };
-    if (mask) this.#mask.give(mask.file, mask.words);
+    if (mask) this.#mask.give(mask);
     this.#drawn = maskIsDrawn ? mask?.file : undefined;
-    if (lights) this.#lights.give(lights.file, lights.words);
+    if (lights) this.#lights.give(lights);
     for (const [name, value] of Object.entries(values)) {
       const field = this.#form.elements.namedItem(name);
       if (field instanceof RadioNodeList || field instanceof HTMLSelectElement) field.value = value;

@@ -1,27 +1,19 @@
 import type { ColorMode, Notice, Plan } from "normalight";
 import { asAmbient } from "./ambient.js";
 import { FEWEST } from "./captures.js";
-import { byId, make, paint, say, sayLines, wordsOf } from "./dom.js";
+import { byId, english, make, paint, sayError, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
-import { noticesByFile } from "./file_notices.js";
 import { withoutExtension } from "./large/shrink.js";
+import { noticesByFile } from "./notices_by_file.js";
 import { Roving } from "./roving.js";
+import { texts } from "./texts/texts.js";
+import { type Entry, entryOf, flag } from "./tile.js";
 
 /** Longer side of a thumbnail in pixels. */
 const SIDE = 144;
 
 /** The plan of no files. */
 const NOTHING: Plan = { images: [], leftOut: [], notices: [], words: [] };
-
-/** One file of the stack and its tile. */
-interface Entry {
-  readonly file: File;
-  readonly tile: HTMLLIElement;
-  readonly picture: HTMLCanvasElement;
-  /** Colour mode the thumbnail was made with; none yet when missing. */
-  shown?: ColorMode;
-  problem?: string;
-}
 
 /** Who hears of the files. */
 interface Heard {
@@ -49,7 +41,7 @@ export class Stack {
   /** The archives that the files came out of. */
   #archives: readonly string[] = [];
   /** What is wrong with the files as a whole. */
-  #problem = "";
+  #problem: unknown;
   /** Ends the looking at files that are no longer asked for. */
   #looking = new AbortController();
   #color: ColorMode = "auto";
@@ -67,13 +59,18 @@ export class Stack {
     });
   }
 
+  /** Whether it is known what the files are. */
+  get planned(): boolean {
+    return this.#planned;
+  }
+
   /** Why no run can begin with these files; empty when one can, as far as is known. */
   get lacking(): string {
     const { length } = this.photographs;
-    if (this.#entries.length === 0) return "Choose three photographs or more.";
+    if (this.#entries.length === 0) return texts.stack.none;
     if (!this.#planned || this.#pages || length >= FEWEST) return "";
-    if (length === 0) return "There is no photograph among these files; three are needed.";
-    return `${length === 1 ? "One photograph is" : "Two photographs are"} not enough: three are needed.`;
+    if (length === 0) return texts.stack.noPhotograph;
+    return texts.stack.tooFew(length);
   }
 
   /** All files, photographs or not, as the estimator is to get them. */
@@ -156,13 +153,7 @@ export class Stack {
   /** Shows on thumbnails what is doubtful about their files. */
   mark(notices: readonly Notice[]): void {
     for (const { tile } of this.#entries) tile.querySelector(".flag")?.remove();
-    for (const [name, words] of noticesByFile(notices)) {
-      const flag = make("span", "flag", "!");
-      flag.setAttribute("role", "img");
-      flag.setAttribute("aria-label", words);
-      flag.title = words;
-      this.#entryOf(name)?.tile.append(flag);
-    }
+    for (const [name, words] of noticesByFile(notices)) this.#entryOf(name)?.tile.append(flag(words));
   }
 
   /** Takes other files; `keep` adds them, and replaces those of the same name. */
@@ -182,17 +173,7 @@ export class Stack {
   }
 
   #entry(file: File): Entry {
-    const picture = make("canvas");
-    const remove = make("button", "remove", "×");
-    remove.type = "button";
-    remove.title = `Remove ${file.name}`;
-    remove.setAttribute("aria-label", remove.title);
-    const room = make("span", "room", "room light");
-    const tile = make("li", "", picture, make("span", "name", file.name), room, remove);
-    tile.title = file.name;
-    const entry: Entry = { file, tile, picture };
-    remove.tabIndex = -1;
-    remove.addEventListener("click", () => this.#remove(entry));
+    const entry = entryOf(file, () => this.#remove(entry));
     return entry;
   }
 
@@ -221,7 +202,7 @@ export class Stack {
     this.#looking = new AbortController();
     const { signal } = this.#looking;
     const [entries, color] = [this.#entries, this.#color];
-    this.#problem = "";
+    this.#problem = undefined;
     try {
       // Where a photograph is marked, everything is unpacked.
       const unpacked = this.#ambient
@@ -249,7 +230,7 @@ export class Stack {
     } catch (error) {
       if (signal.aborted) return;
       this.#plan = NOTHING;
-      this.#problem = wordsOf(error);
+      this.#problem = error;
       this.#show();
     }
   }
@@ -279,7 +260,7 @@ export class Stack {
     } catch (error) {
       if (signal.aborted) throw error;
       entry.shown = color;
-      entry.problem = wordsOf(error);
+      entry.problem = error;
       entry.tile.dataset.state = "bad";
       this.#show();
     }
@@ -310,25 +291,32 @@ export class Stack {
     byId("stack").hidden = this.#entries.length === 0;
     byId("drop").classList.toggle("small", this.#entries.length > 0);
     byId("stack-words").textContent = this.#words();
-    sayLines(byId("stack-notes"), this.#plan.words);
+    sayLines(byId("stack-notes"), texts.plan.ofFiles(this.#plan));
     const bad = shown.flatMap(({ problem }) => problem ?? []);
     this.#problems.hidden = bad.length === 0 && !this.#problem;
-    if (this.#problem) say(this.#problems, this.#problem);
-    else this.#problems.replaceChildren(...bad.map((words) => make("p", "", words)));
+    if (this.#problem) sayError(this.#problems, this.#problem);
+    else this.#problems.replaceChildren(...paragraphsAbout(bad));
   }
 
   #words(): string {
     const { length } = this.photographs;
-    const words = [length === 1 ? "1 photograph" : `${length} photographs`];
+    const words = [texts.stack.photographs(length)];
     const marked = this.#ambient?.entry;
-    if (marked) words.push(`without the lamp ${marked.file.name}`);
+    if (marked) words.push(texts.stack.ambient(marked.file.name));
     const maskFile = this.#entries[this.#plan.mask ?? -1];
-    if (maskFile) words.push(`mask ${maskFile.file.name}`);
+    if (maskFile) words.push(texts.stack.mask(maskFile.file.name));
     const other = this.#entries.length - length - (marked ? 1 : 0) - (maskFile ? 1 : 0);
-    if (other > 0) words.push(other === 1 ? "1 other file" : `${other} other files`);
-    if (this.#archives.length > 0) words.push(`out of ${this.#archives.join(", ")}`);
+    if (other > 0) words.push(texts.stack.others(other));
+    if (this.#archives.length > 0) words.push(texts.stack.archives(this.#archives));
     return words.join(" · ");
   }
+}
+
+/** What is wrong with single files, in the estimator's words: what kind of failure it is is said once. */
+function paragraphsAbout(errors: readonly unknown[]): HTMLElement[] {
+  const before = errors.length > 0 && texts.errors.before?.input;
+  const each = errors.map((error) => make("p", "", english(wordsOf(error))));
+  return before ? [make("p", "", `${before}:`), ...each] : each;
 }
 
 /** Whether a file is a TIFF or BigTIFF, which may hold several pictures. */

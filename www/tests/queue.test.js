@@ -29,6 +29,9 @@ const captures = [
 /** What the list says of a stack. @param {string} name */
 const said = (name) => tab.locator(`#queue-list li:has-text("${name}") span`).textContent();
 
+/** The result of the queue that is shown. */
+const pressed = () => tab.locator('#queue-list [aria-pressed="true"]').allTextContents();
+
 /** Estimates all and waits for the end. */
 async function estimateAll() {
   await tab.click("#estimate-all");
@@ -46,7 +49,8 @@ test("all stacks are estimated one after the other, and one that fails says why"
   await tab.click('.crop-editor [data-do="done"]');
   await tab.click("#estimate-all");
   await tab.waitForSelector("#progress-words:has-text('Stack 1 of 3, all/bowl: ')");
-  await tab.waitForSelector("#progress-words:has-text('Stack 3 of 3, all/vase: ')");
+  // Three small photographs may be done before anybody looks.
+  await tab.waitForSelector("#progress-words:has-text('Stack 3 of 3, all/vase: ')", { state: "attached" });
   await tab.waitForSelector("#start:visible");
   assert.match((await tab.textContent("#status")) ?? "", /^2 of 3 stacks done, 1 failed in \d+ s\.$/);
   assert.match((await said("bowl")) ?? "", /^4 photographs of 48 × 64 pixels, cropped to .*; [\d.]+ s$/);
@@ -63,7 +67,6 @@ test("one can switch between the finished ones; the bench has the stack of the o
   await tab.waitForSelector("#stack-words:has-text('3 photographs')");
   assert.match((await tab.textContent("#facts")) ?? "", /3 of 48 × 64/);
   assert.equal(await tab.isVisible("#result-stale"), false);
-  const pressed = () => tab.locator('#queue-list [aria-pressed="true"]').allTextContents();
   assert.deepEqual(await pressed(), ["all/vase"]);
   assert.equal(await tab.getAttribute('#folder-others button:has-text("vase")', "aria-pressed"), "true");
   const vase = await page.download("normals.png");
@@ -84,6 +87,73 @@ test("one can switch between the finished ones; the bench has the stack of the o
   // A run of its own is none of the queue.
   assert.equal(await page.estimate(), "");
   assert.deepEqual(await pressed(), []);
+});
+
+test("finished results are there again after a reload, with the session", async () => {
+  await tab.click('#queue-list button:text("all/vase")');
+  await tab.waitForSelector("#result-title:text('Result of all/vase')");
+  const vase = await page.download("normals.png");
+  const lines = await tab.locator("#queue-list li").allTextContents();
+  await tab.waitForSelector("#queue-words:has-text('kept on this device for a reload')");
+  // What is shown is kept with them, a moment later.
+  await tab.waitForFunction(
+    () =>
+      new Promise((resolve) => {
+        const opening = indexedDB.open("normalight.session");
+        opening.onsuccess = () => {
+          const reading = opening.result.transaction("parts").objectStore("parts").get("queue");
+          reading.onsuccess = () => resolve(reading.result?.shown === 2);
+          opening.result.close();
+        };
+      }),
+  );
+  // Another language is a reload, too, after which nothing must be asked.
+  await tab.selectOption("#language", "de");
+  await tab.waitForSelector("#queue-words:text('2 von 3 Sätzen fertig, 1 gescheitert.')");
+  assert.match((await said("bowl")) ?? "", /^4 Fotos mit 48 × 64 Pixeln, zugeschnitten auf .*; [\d,]+ s$/);
+  assert.match((await tab.textContent("#queue-list span [lang=en]")) ?? "", /\b30/);
+  await page.ready();
+  await tab.selectOption("#language", "en");
+  await tab.waitForSelector("#queue-words:text('2 of 3 stacks done, 1 failed.')");
+  assert.deepEqual(await tab.locator("#queue-list li").allTextContents(), lines);
+  assert.deepEqual(await pressed(), ["all/vase"]);
+  await tab.click('#queue-list button:text("all/bowl")');
+  await tab.waitForSelector("#result-title:text('Result of all/bowl')");
+  assert.match((await tab.textContent("#facts")) ?? "", /4 of 48 × 64/);
+  await tab.waitForSelector("#stack-words:has-text('4 photographs')");
+  assert.equal(await tab.isVisible("#result-stale"), false);
+  await tab.click('#queue-list button:text("all/vase")');
+  await tab.waitForSelector("#result-title:text('Result of all/vase')");
+  assert.deepEqual(await page.download("normals.png"), vase);
+});
+
+test("results whose photographs find no room are kept until the page is closed, which is said", async () => {
+  await page.ready();
+  await tab.reload();
+  await page.quick();
+  await drop(tab, [...inFolder("new/a", AVIF_BALLS), ...inFolder("new/b", AVIF_BALLS)]);
+  await tab.waitForSelector("#stack-kept:has-text('Kept on this device for a reload')");
+  await tab.evaluate(() => {
+    navigator.storage.estimate = async () => ({ quota: 1, usage: 0 });
+  });
+  await estimateAll();
+  await tab.waitForSelector("#queue-words:has-text('no room for all their photographs')");
+  assert.equal(await tab.isVisible("#stack-kept"), true);
+  await tab.reload();
+  await tab.click("#session-restore");
+  await page.thumbnails(4);
+  assert.equal(await tab.isVisible("#queue"), false);
+  await tab.waitForFunction(
+    () =>
+      new Promise((resolve) => {
+        const opening = indexedDB.open("normalight.queue");
+        opening.onsuccess = () => {
+          const counting = opening.result.transaction("results").objectStore("results").count();
+          counting.onsuccess = () => resolve(counting.result === 0);
+          opening.result.close();
+        };
+      }),
+  );
 });
 
 test("cancelling stops the queue at once, and keeps what is finished", async () => {

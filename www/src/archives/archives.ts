@@ -1,5 +1,7 @@
+import { ask } from "../ask.js";
 import { type Found, isOther } from "../captures.js";
-import type { FromArchives } from "./worker.js";
+import { texts } from "../texts/texts.js";
+import type { ArchiveProblem, FromArchives } from "./worker.js";
 
 const ZIP = /\.zip$/i;
 
@@ -16,16 +18,16 @@ export function areArchives(files: readonly File[]): boolean {
 export async function capturesOf(files: readonly File[]): Promise<Found | undefined> {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
   try {
-    return await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }: MessageEvent<FromArchives>) =>
-        "problem" in data ? reject(new Error(data.problem)) : resolve(data.found);
-      worker.onerror = (event) => {
-        event.preventDefault();
-        reject(new Error(`The archive cannot be unpacked: ${event.message || "out of memory"}`));
-      };
-      worker.postMessage(files.filter(({ name }) => ZIP.test(name)));
-    });
+    const archives = files.filter(({ name }) => ZIP.test(name));
+    const answer = await ask<FromArchives>(worker, archives, texts.folders.archiveUnread);
+    if ("problem" in answer) throw new Error(wordsFor(answer.problem));
+    return answer.found;
   } finally {
     worker.terminate();
   }
+}
+
+function wordsFor(problem: ArchiveProblem): string {
+  if (problem.kind === "broken") return problem.message;
+  return texts.folders.archiveTooLarge(problem.place, problem.gigabytes);
 }

@@ -1,8 +1,13 @@
 import { type UnzipFileInfo, unzipSync } from "fflate";
-import { capturesAmong, type Found, type Placed } from "../captures.js";
+import { capturesAmong, type Found, type Place, type Placed } from "../captures.js";
+
+/** What is wrong with archives. */
+export type ArchiveProblem =
+  | { readonly kind: "too-large"; readonly place: Place; readonly gigabytes: number }
+  | { readonly kind: "broken"; readonly message: string };
 
 /** From the worker: the captures, where there are several, or what is wrong. */
-export type FromArchives = { readonly found: Found | undefined } | { readonly problem: string };
+export type FromArchives = { readonly found: Found | undefined } | { readonly problem: ArchiveProblem };
 
 /** The part of a worker's global scope that is used here. */
 interface Scope {
@@ -24,21 +29,22 @@ interface Listed extends UnzipFileInfo {
 
 scope.addEventListener("message", async ({ data }) => {
   try {
-    scope.postMessage({ found: await look(data) });
+    scope.postMessage(await look(data));
   } catch (error) {
-    scope.postMessage({ problem: error instanceof Error ? error.message : String(error) });
+    const message = error instanceof Error ? error.message : String(error);
+    scope.postMessage({ problem: { kind: "broken", message } });
   }
 });
 
-async function look(archives: readonly File[]): Promise<Found | undefined> {
-  if (archives.some(({ size }) => size > MOST)) return undefined;
+async function look(archives: readonly File[]): Promise<FromArchives> {
+  if (archives.some(({ size }) => size > MOST)) return { found: undefined };
   const listed = new Map<File, Listed>();
   const placed: Placed[] = [];
   for (const [archive, { name: archiveName }] of archives.entries()) {
     const top = archiveName.replace(/\.zip$/i, "");
     const infos = list(await bytesOf(archives, archive));
     // The estimator says what is wrong with it.
-    if (!infos) return undefined;
+    if (!infos) return { found: undefined };
     for (const info of infos) {
       const parts = info.name.split("/");
       const name = parts.pop() ?? "";
@@ -50,23 +56,19 @@ async function look(archives: readonly File[]): Promise<Found | undefined> {
       placed.push({ folder, file });
     }
   }
-  const [first] = archives;
-  const where =
-    archives.length === 1 && first ? `the archive ${first.name}` : `the ${archives.length} archives`;
-  const { captures, words } = capturesAmong(placed, [], where);
-  if (captures.length < 2) return undefined;
+  const place: Place = { kind: "archives", names: archives.map(({ name }) => name) };
+  const { captures, ...others } = capturesAmong(placed, [], place);
+  if (captures.length < 2) return { found: undefined };
   const wanted = captures.flatMap(({ files }) => files);
   const needed = wanted.reduce((sum, file) => sum + (listed.get(file)?.originalSize ?? 0), 0);
   if (needed > MOST_UNPACKED)
-    throw new Error(`What lies in ${where} has more than ${MOST_UNPACKED / 1e9} GB: unpack it first.`);
+    return { problem: { kind: "too-large", place, gigabytes: MOST_UNPACKED / 1e9 } };
   const unpacked = await unpack(archives, wanted, listed);
-  return {
-    captures: captures.map(({ folder, files }) => ({
-      folder,
-      files: files.flatMap((file) => unpacked.get(file) ?? []),
-    })),
-    words,
-  };
+  const filled = captures.map(({ folder, files }) => ({
+    folder,
+    files: files.flatMap((file) => unpacked.get(file) ?? []),
+  }));
+  return { found: { captures: filled, ...others } };
 }
 
 /** The wanted files with their contents: one after the other, so that they are not in memory all at once. */

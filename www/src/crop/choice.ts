@@ -1,9 +1,10 @@
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError } from "../dom.js";
 import type { Engine } from "../engine.js";
 import { aboutPhotograph } from "../large/about.js";
 import type { Stack } from "../stack.js";
+import { texts } from "../texts/texts.js";
 import type { FramedCrop } from "./editor.js";
-import { type Crop, cropWords, type Frame } from "./rectangle.js";
+import type { Crop, Frame } from "./rectangle.js";
 
 /** The part of the photographs on the bench that is taken. */
 export class CropChoice {
@@ -55,17 +56,17 @@ export class CropChoice {
 
   async #edit(): Promise<void> {
     const [file] = this.stack.photographs;
-    say(this.#problem, file ? "" : "It is not known yet which files are photographs.");
+    say(this.#problem, file ? "" : texts.crop.unknown);
     if (!file) return;
     this.#button.disabled = true;
     try {
       const { fixed } = await aboutPhotograph(file, this.engine);
-      if (fixed) throw new Error(`They can only be taken whole: ${file.name} ${fixed}.`);
+      if (fixed) throw new Error(texts.crop.fixed(file.name, fixed));
       const { editCrop } = await import("./editor.js");
       const edited = await editCrop(file, this.crop);
       if (edited) this.#take(edited.crop && edited);
     } catch (error) {
-      say(this.#problem, wordsOf(error));
+      sayError(this.#problem, error);
     }
     this.#button.disabled = false;
     this.#button.focus();
@@ -74,10 +75,9 @@ export class CropChoice {
   #take(kept: FramedCrop | undefined): void {
     this.#kept = kept;
     const { crop, frame } = kept ?? {};
-    const words = crop && frame ? `${cropWords(crop)}, of ${frame.width} × ${frame.height}` : "";
-    say(this.#words, words && `Taken of all photographs: ${words}.`);
+    say(this.#words, crop && frame ? texts.crop.taken(crop, frame) : "");
     this.#remove.hidden = crop === undefined;
-    this.#button.textContent = crop ? "Change the crop…" : "Crop…";
+    this.#button.textContent = crop ? texts.crop.change : texts.crop.begin;
     this.changed();
   }
 }

@@ -1,6 +1,7 @@
 import { context, make } from "../dom.js";
 import { button, group, row } from "../mask/toolbar.js";
-import { type Crop, cropWords, type Frame, isWhole, SHORTEST, typed, wholeOf } from "./rectangle.js";
+import { texts } from "../texts/texts.js";
+import { type Crop, type Frame, isWhole, SHORTEST, typed, wholeOf } from "./rectangle.js";
 import { CropStage } from "./stage.js";
 
 /** Longer side in pixels at which the photograph is shown at most. */
@@ -28,12 +29,7 @@ export async function editCrop(photograph: File, crop: Crop | undefined): Promis
   return edited && { frame, crop: isWhole(edited, frame) ? undefined : edited };
 }
 
-const NUMBERS: readonly (readonly [keyof Crop, string])[] = [
-  ["left", "Left"],
-  ["top", "Top"],
-  ["width", "Width"],
-  ["height", "Height"],
-];
+const NUMBERS: readonly (keyof Crop)[] = ["left", "top", "width", "height"];
 
 class CropEditor {
   readonly edited: Promise<Crop | undefined>;
@@ -60,16 +56,16 @@ class CropEditor {
   }
 
   #build(): void {
-    const title = make("h2", "", "Crop");
+    const title = make("h2", "", texts.crop.title);
     title.id = "crop-title";
     this.#dialog.setAttribute("aria-labelledby", title.id);
     this.#words.setAttribute("role", "status");
     // Width before height, also where a page begins at the right.
     this.#words.dir = "auto";
-    const done = button("done", "Done", "Takes this part of all photographs", () => this.#close(this.#crop));
+    const done = button("done", texts.crop.done, texts.crop.doneTitle, () => this.#close(this.#crop));
     done.classList.add("accent");
     const buttons = row(
-      button("cancel", "Cancel", "Leaves everything as it was", () => this.#close()),
+      button("cancel", texts.crop.cancel, texts.crop.cancelTitle, () => this.#close()),
       done,
     );
     const head = make("header", "mask-head", title, this.#words, buttons);
@@ -78,22 +74,19 @@ class CropEditor {
   }
 
   #panel(): HTMLElement {
-    const numbers = NUMBERS.map(([name, words]) => make("label", "crop-number", words, this.#input(name)));
-    const whole = button("frame", "Whole frame", "Nothing is cut away", () =>
+    const numbers = NUMBERS.map((name) =>
+      make("label", "crop-number", texts.crop.numbers[name], this.#input(name)),
+    );
+    const whole = button("frame", texts.crop.whole, texts.crop.wholeTitle, () =>
       this.#show(wholeOf(this.#frame)),
     );
-    const keys = make(
-      "p",
-      "notice",
-      "Drag on the photograph, or use the arrow keys: they move the rectangle, with Shift they change its size; " +
-        "with Ctrl by single pixels. The same part of all photographs is taken, and of the mask.",
-    );
+    const keys = make("p", "notice", texts.crop.keys);
     keys.id = "crop-keys";
     this.#stage.box.setAttribute("aria-describedby", keys.id);
     return make(
       "div",
       "mask-panel",
-      group("In pixels", make("div", "crop-numbers", ...numbers), row(whole)),
+      group(texts.crop.inPixels, make("div", "crop-numbers", ...numbers), row(whole)),
       keys,
     );
   }
@@ -121,8 +114,8 @@ class CropEditor {
     this.#stage.crop = crop;
     for (const [name, input] of this.#inputs) input.value = String(crop[name]);
     this.#words.textContent = isWhole(crop, this.#frame)
-      ? `The whole frame, ${crop.width} × ${crop.height} pixels`
-      : cropWords(crop);
+      ? texts.crop.wholeFrame(crop)
+      : texts.crop.rectangle(crop);
   }
 
   #close(crop?: Crop): void {

@@ -76,11 +76,6 @@ export function between(
   return fitted({ left: x, top: y, width: (right ?? x) - x, height: (bottom ?? y) - y }, frame);
 }
 
-/** A rectangle in words. */
-export function cropWords({ left, top, width, height }: Crop): string {
-  return `${width} × ${height} pixels, ${left} from the left and ${top} from the top`;
-}
-
 function stretched(start: number, length: number, which: -1 | 0 | 1, by: number, whole: number) {
   const end = start + length;
   const shortest = Math.min(SHORTEST, whole);

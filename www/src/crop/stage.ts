@@ -1,4 +1,5 @@
 import { make } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { between, type Crop, type Frame, moved, resized, type Sides, wholeOf } from "./rectangle.js";
 
 /** Handles at corners and sides: those of corners are last, above the others. */
@@ -52,8 +53,8 @@ export class CropStage {
     }
     this.box.tabIndex = 0;
     this.box.setAttribute("role", "application");
-    this.box.setAttribute("aria-roledescription", "rectangle");
-    this.box.setAttribute("aria-label", "The part that is taken");
+    this.box.setAttribute("aria-roledescription", texts.crop.kind);
+    this.box.setAttribute("aria-label", texts.crop.box);
     this.box.addEventListener("keydown", (event) => this.#key(event));
     this.#place = make("div", "crop-place", picture, this.box);
     this.element.append(this.#place);

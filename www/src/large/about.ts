@@ -1,4 +1,5 @@
 import type { Engine } from "../engine.js";
+import { texts } from "../texts/texts.js";
 
 /** What is known of a photograph before it is read. */
 export interface About {
@@ -19,7 +20,7 @@ export async function aboutPhotograph(file: File, engine: Engine): Promise<About
   const isPng = head.byteLength === 32 && head.getUint32(0) === 0x89504e47;
   if (isPng) {
     const deep = head.getUint8(24) === 16;
-    const fixed = deep ? "has 16 bits a sample, of which browsers keep 8" : "";
+    const fixed = deep ? texts.large.fixed.deep : "";
     const channels = head.getUint8(25) % 4 === 0 ? 1 : 3;
     return { width: head.getUint32(16), height: head.getUint32(20), channels, bytes: deep ? 2 : 1, fixed };
   }
@@ -31,6 +32,6 @@ export async function aboutPhotograph(file: File, engine: Engine): Promise<About
   } catch {
     const { width, height } = await engine.with((normalight) => normalight.thumbnail(file, { side: WHOLE }));
     // Such formats mostly have 16 bits.
-    return { width, height, channels: 3, bytes: 2, fixed: "is of a format that browsers do not decode" };
+    return { width, height, channels: 3, bytes: 2, fixed: texts.large.fixed.undecoded };
   }
 }

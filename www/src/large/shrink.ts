@@ -1,3 +1,6 @@
+import { ask } from "../ask.js";
+import type { Frame } from "../crop/rectangle.js";
+import { texts } from "../texts/texts.js";
 import type { Taken } from "./taken.js";
 
 /** To the worker: a picture, and what of it is taken. */
@@ -8,8 +11,14 @@ export interface ToTake {
   readonly linear: boolean;
 }
 
+/** Why a picture cannot be taken. */
+export type TakenProblem =
+  | { readonly kind: "other-size"; readonly own: Frame; readonly others: Frame }
+  | { readonly kind: "no-drawing" }
+  | { readonly kind: "broken"; readonly message: string };
+
 /** From the worker: a PNG, or what is wrong. */
-export type TakenPicture = { readonly png: Blob } | { readonly problem: string };
+export type TakenPicture = { readonly png: Blob } | { readonly problem: TakenProblem };
 
 /**
  * Files of which those that are `chosen` are cropped and brought to a smaller size, as PNG of 8 bits sRGB.
@@ -26,6 +35,7 @@ export async function shrunk(
 ): Promise<File[]> {
   if (taken.times === 1 && !taken.crop) return [...files];
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+  const words = taken.crop ? texts.large.notCropped : texts.large.notShrunk;
   const used: File[] = [];
   let done = 0;
   try {
@@ -35,8 +45,12 @@ export async function shrunk(
         continue;
       }
       told(done, chosen.size);
-      const png = await ask(worker, { file, taken, linear }, signal);
-      used.push(new File([png], asPng(file.name), { type: "image/png", lastModified: file.lastModified }));
+      const request: ToTake = { file, taken, linear };
+      const cannot = (why: string) => words(file.name, why);
+      const answer = await ask<TakenPicture>(worker, request, cannot, signal);
+      if ("problem" in answer) throw new Error(cannot(wordsFor(answer.problem)));
+      const name = asPng(file.name);
+      used.push(new File([answer.png], name, { type: "image/png", lastModified: file.lastModified }));
       done += 1;
     }
     return used;
@@ -55,19 +69,13 @@ export function withoutExtension(name: string): string {
   return name.replace(/\.[^./]*$/, "");
 }
 
-function ask(worker: Worker, request: ToTake, signal: AbortSignal): Promise<Blob> {
-  return new Promise((resolve, reject) => {
-    const what = request.taken.crop ? "cropped" : "made smaller";
-    const cannot = (reason: string) =>
-      reject(new Error(`${request.file.name}: cannot be ${what}: ${reason}`));
-    signal.throwIfAborted();
-    signal.addEventListener("abort", () => reject(signal.reason), { once: true });
-    worker.onmessage = ({ data }: MessageEvent<TakenPicture>) =>
-      "png" in data ? resolve(data.png) : cannot(data.problem);
-    worker.onerror = (event) => {
-      event.preventDefault();
-      cannot(event.message || "out of memory");
-    };
-    worker.postMessage(request);
-  });
+function wordsFor(problem: TakenProblem): string {
+  switch (problem.kind) {
+    case "other-size":
+      return texts.large.otherSize(problem.own, problem.others);
+    case "no-drawing":
+      return texts.errors.noDrawing;
+    case "broken":
+      return problem.message;
+  }
 }

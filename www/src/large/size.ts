@@ -6,9 +6,11 @@ import type { Engine } from "../engine.js";
 import { total } from "../job.js";
 import type { Settings } from "../settings.js";
 import type { Stack } from "../stack.js";
+import { texts } from "../texts/texts.js";
 import { type About, aboutPhotograph } from "./about.js";
 import { memoryHere, memoryOf, type Shape, Speed } from "./cost.js";
-import { AS_THEY_ARE, type Shrinking, sideOf, type Taken } from "./taken.js";
+import { sideOf } from "./side.js";
+import { AS_THEY_ARE, type Shrinking, type Taken } from "./taken.js";
 
 /** Pixels from which on photographs are large. */
 const LARGE = 4e6;
@@ -130,14 +132,12 @@ export class SizeChoice {
 
   /** Why it is this size; empty where there is nothing to be said. */
   #reason(about: About): string {
-    const here = memoryWords(memoryHere());
-    const fits = memoryOf(this.#shape(about, this.times)) <= memoryHere();
-    const lacking = `That is more than the ${here} that a page has: the run may fail. The command has no such limit.`;
-    if (about.fixed)
-      return `They can only be taken whole: ${this.#file?.name ?? ""} ${about.fixed}. ${fits ? "" : lacking}`.trim();
-    if (!fits) return lacking;
-    const whole = memoryOf(this.#shape(about, 1)) <= memoryHere();
-    return whole ? "" : `More memory than there is for a page (${here}) would be needed for the full size.`;
+    const { large } = texts;
+    const here = memoryHere();
+    const lacking = memoryOf(this.#shape(about, this.times)) <= here ? "" : large.lacking(here);
+    if (about.fixed) return `${texts.crop.fixed(this.#file?.name ?? "", about.fixed)} ${lacking}`.trim();
+    if (lacking) return lacking;
+    return memoryOf(this.#shape(about, 1)) <= here ? "" : large.noMemory(here);
   }
 
   #radio(times: Shrinking): HTMLInputElement {
@@ -165,15 +165,13 @@ export class SizeChoice {
     if (!large) return;
     say(this.#why, this.#reason(about));
     const shape = this.#shape(about, this.times);
-    const part = this.crop.crop ? " after cropping" : "";
-    const size = ((shape.width * shape.height) / 1e6).toFixed(1);
     const quality = this.settings.options.quality ?? "default";
     const seconds = this.#speed.secondsOf(this.engine.kind, shape, quality);
-    const time =
-      seconds === undefined
-        ? "how long it takes here is known after the first run"
-        : `${timeWords(seconds)}${this.#speed.knows(this.engine.kind) ? ", as fast as the last run was" : ", if this processor is like ours and the object fills half of the frame"}`;
-    this.#words.textContent = `${shape.photographs} photographs of ${size} megapixels${part}: about ${memoryWords(memoryOf(shape))} of memory; ${time}.`;
+    const measured = this.#speed.knows(this.engine.kind);
+    const time = seconds === undefined ? undefined : { seconds, measured };
+    const { width, height, photographs } = shape;
+    const cropped = this.crop.crop !== undefined;
+    this.#words.textContent = texts.large.cost(photographs, width * height, cropped, memoryOf(shape), time);
   }
 }
 
@@ -189,14 +187,4 @@ function fitting(about: About, crop: Crop | undefined, photographs: number): Shr
   if (about.fixed) return 1;
   const fits = (times: Shrinking) => memoryOf(shapeOf(about, crop, photographs, times)) <= memoryHere();
   return SHRINKINGS.find(fits) ?? 4;
-}
-
-function memoryWords(bytes: number): string {
-  return `${(bytes / 2 ** 30).toFixed(1)} GB`;
-}
-
-function timeWords(seconds: number): string {
-  if (seconds < 90) return `about ${10 * Math.ceil(seconds / 10)} s`;
-  if (seconds < 5400) return `about ${Math.round(seconds / 60)} min`;
-  return `about ${Math.round(seconds / 3600)} h`;
 }

@@ -1,4 +1,5 @@
-import { type Crop, cropWords, type Frame } from "../crop/rectangle.js";
+import type { Crop, Frame } from "../crop/rectangle.js";
+import { type Texts, texts } from "../texts/texts.js";
 
 /** How many times smaller the sides of photographs become. */
 export type Shrinking = 1 | 2 | 4;
@@ -16,14 +17,8 @@ export interface Taken {
 export const AS_THEY_ARE: Taken = { times: 1, crop: undefined, frame: undefined };
 
 /** How photographs were taken, in words; none for as they are. */
-export function takenWords({ times, crop, frame }: Taken): string {
-  const part = crop ? [`cropped to ${cropWords(crop)}`] : [];
-  const size = times === 1 ? [] : [`at ${times === 2 ? "half" : "a quarter of"} their size`];
-  const words = [...part, ...size].join(", ");
-  return words && frame ? `${words}, from ${frame.width} × ${frame.height} pixels` : words;
+export function takenWords({ times, crop, frame }: Taken, { large }: Pick<Texts, "large"> = texts): string {
+  return large.taken(crop, times, frame);
 }
 
-/** A side at the size that is taken. */
-export function sideOf(pixels: number, times: Shrinking): number {
-  return Math.max(Math.round(pixels / times), 1);
-}
+export { sideOf } from "./side.js";

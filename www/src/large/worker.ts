@@ -1,7 +1,7 @@
 import { wholeOf } from "../crop/rectangle.js";
 import { Average } from "./average.js";
 import type { TakenPicture, ToTake } from "./shrink.js";
-import { sideOf } from "./taken.js";
+import { sideOf } from "./side.js";
 
 /** The part of a worker's global scope that is used here. */
 interface Scope {
@@ -18,7 +18,8 @@ scope.addEventListener("message", async ({ data }) => {
   try {
     scope.postMessage(await take(data));
   } catch (error) {
-    scope.postMessage({ problem: error instanceof Error ? error.message : String(error) });
+    const message = error instanceof Error ? error.message : String(error);
+    scope.postMessage({ problem: { kind: "broken", message } });
   }
 });
 
@@ -28,15 +29,17 @@ async function take({ file, taken: { times, crop, frame }, linear }: ToTake): Pr
   const { width, height } = whole;
   // In a photograph of another size the same rectangle would be another part of the object.
   if (crop && frame && (frame.width !== width || frame.height !== height))
-    throw new Error(`it has ${width} × ${height} pixels, others have ${frame.width} × ${frame.height}`);
+    return { problem: { kind: "other-size", own: { width, height }, others: frame } };
   const part = crop ?? wholeOf(whole);
   const [toWidth, toHeight] = [sideOf(part.width, times), sideOf(part.height, times)];
   const canvas = new OffscreenCanvas(toWidth, toHeight);
   const drawing = contextOf(canvas);
+  if (!drawing) return { problem: { kind: "no-drawing" } };
   if (times === 1) drawing.drawImage(whole, -part.left, -part.top);
   else {
     const average = new Average(part.width, part.height, toWidth, toHeight, linear);
     const strip = contextOf(new OffscreenCanvas(part.width, Math.min(ROWS, part.height)));
+    if (!strip) return { problem: { kind: "no-drawing" } };
     for (let top = 0; top < part.height; top += ROWS) {
       const rows = Math.min(ROWS, part.height - top);
       strip.clearRect(0, 0, part.width, rows);
@@ -49,9 +52,7 @@ async function take({ file, taken: { times, crop, frame }, linear }: ToTake): Pr
   return { png: await canvas.convertToBlob({ type: "image/png" }) };
 }
 
-function contextOf(canvas: OffscreenCanvas): OffscreenCanvasRenderingContext2D {
+function contextOf(canvas: OffscreenCanvas): OffscreenCanvasRenderingContext2D | null {
   // Pixels are read and written: drawn by the processor, none of them must come back from a GPU.
-  const drawing = canvas.getContext("2d", { willReadFrequently: true });
-  if (drawing === null) throw new Error("this browser cannot draw");
-  return drawing;
+  return canvas.getContext("2d", { willReadFrequently: true });
 }

@@ -1,3 +1,4 @@
+import { texts } from "../texts/texts.js";
 import type { HandLight } from "./light.js";
 
 /**
@@ -21,6 +22,9 @@ const GRAZING = 25;
 /** Lights that are doubtful, as a share, from which on the photographs rather than a lamp are the cause. */
 const MANY_DOUBTFUL = 0.3;
 
+/** A side of the picture from which light comes. */
+export type Side = "left" | "right" | "top" | "bottom";
+
 /** What the lights of a stack say about how it was photographed: lines for people, none when all is well. */
 export function coverage(lights: readonly HandLight[]): string[] {
   if (lights.length < 3) return [];
@@ -39,7 +43,7 @@ export function widest(lights: readonly HandLight[]): number {
 function spread(lights: readonly HandLight[]): string | undefined {
   const degrees = widest(lights);
   if (degrees >= NARROW) return undefined;
-  return `All lamps lie within ${Math.ceil(degrees)} degrees of one direction: move the lamp further, all around the object.`;
+  return texts.lights.narrow(Math.ceil(degrees));
 }
 
 /** A side from which hardly any light came; lights beside the camera are on no side. */
@@ -53,10 +57,8 @@ function side(lights: readonly HandLight[]): string | undefined {
   for (const [name, along] of sides) {
     const there = lights.filter((light) => along(light) > 0.1).length;
     const opposite = lights.filter((light) => along(light) < -0.1).length;
-    if (opposite === 0 && there >= NONE_OPPOSITE * lights.length)
-      return `All lamps came from the ${name}: the other side of the object is in shadow in every photograph.`;
-    if (there >= ONE_SIDED * lights.length)
-      return `Nearly all lamps came from the ${name}: take more photographs with the lamp opposite.`;
+    if (opposite === 0 && there >= NONE_OPPOSITE * lights.length) return texts.lights.noneOpposite(name);
+    if (there >= ONE_SIDED * lights.length) return texts.lights.fewOpposite(name);
   }
   return undefined;
 }
@@ -65,15 +67,14 @@ function height(lights: readonly HandLight[]): string | undefined {
   const degrees =
     lights.reduce((sum, { z }) => sum + Math.asin(Math.min(Math.max(z, -1), 1)), 0) / lights.length;
   if ((degrees * 180) / Math.PI >= GRAZING) return undefined;
-  return "The lamps graze the object: shadows cover much of it. Lift the lamp towards the camera, to about 45 degrees.";
+  return texts.lights.grazing;
 }
 
 function doubtful(lights: readonly HandLight[]): string | undefined {
   const doubtful = lights.filter(({ confidence }) => confidence < 0.45);
   if (doubtful.length < MANY_DOUBTFUL * lights.length) return undefined;
   const names = doubtful.slice(0, 4).map(({ file }) => file);
-  const more = doubtful.length > names.length ? " and others" : "";
-  return `${doubtful.length} of ${lights.length} lights are doubtful (${names.join(", ")}${more}): look at these photographs, or leave them out.`;
+  return texts.lights.doubtful(doubtful.length, lights.length, names);
 }
 
 function meanOf(lights: readonly HandLight[]): [number, number, number] {

@@ -1,5 +1,6 @@
 import { context, make } from "../dom.js";
-import { directed, type HandLight, inWords, sureness } from "./light.js";
+import { texts } from "../texts/texts.js";
+import { directed, type HandLight, inWords } from "./light.js";
 
 const FIELDS = ["x", "y", "z", "intensity"] as const;
 
@@ -28,9 +29,9 @@ export class LightDetail {
         else this.#tell();
       });
       this.#inputs.set(name, input);
-      numbers.append(make("label", "", name, input));
+      numbers.append(make("label", "", texts.lights.fields[name], input));
     }
-    const used = make("label", "switch", this.#used, "use this photograph");
+    const used = make("label", "switch", this.#used, texts.lights.use);
     this.element.append(
       this.#picture,
       make("div", "", make("p", "", this.#name, this.#words), used),
@@ -42,7 +43,7 @@ export class LightDetail {
     this.#light = light;
     this.#used.checked = used;
     this.#name.textContent = light.file;
-    this.#words.textContent = `${inWords(light)}; ${sureness(light.confidence)}`;
+    this.#words.textContent = texts.lights.detail(inWords(light), light.confidence);
     this.draw(picture);
     this.#tell();
   }

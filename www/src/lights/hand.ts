@@ -1,6 +1,7 @@
 import type { Estimate, EstimateOptions } from "normalight";
-import { byId, make, say, sayLines, wordsOf } from "../dom.js";
+import { byId, make, say, sayError, sayLines } from "../dom.js";
 import type { Stack } from "../stack.js";
+import { texts } from "../texts/texts.js";
 import { coverage } from "./coverage.js";
 import { LightDetail } from "./detail.js";
 import { Hemisphere } from "./hemisphere.js";
@@ -45,8 +46,8 @@ export class LightHand {
   readonly #detail: LightDetail;
   readonly #table: LightTable;
   readonly #words = make("p", "light-words");
-  readonly #again = make("button", "accent", "Estimate normals again");
-  readonly #undo = make("button", "quiet", "Undo changes");
+  readonly #again = make("button", "accent", texts.lights.again);
+  readonly #undo = make("button", "quiet", texts.lights.undo);
   readonly #coverage = make("ul", "notes");
   #lights: HandLight[] = [];
   /** As the estimate has them. */
@@ -175,9 +176,7 @@ export class LightHand {
     const named = new Map(lights.map((light) => [light.file, light]));
     const byName = this.#lights.some(({ file }) => named.has(file));
     if (!byName && lights.length !== this.#lights.length)
-      throw new Error(
-        `There are ${lights.length} lights in the file and ${this.#lights.length} photographs.`,
-      );
+      throw new Error(texts.lights.otherCount(lights.length, this.#lights.length));
     this.#lights = this.#lights.map((light, index) => {
       const other = byName ? named.get(light.file) : lights[index];
       return other ? { ...other, file: light.file } : light;
@@ -210,12 +209,8 @@ export class LightHand {
     const moved = this.#lights.filter((light, index) => light !== this.#found[index]).length;
     const leftOut = this.#left.size;
     const changed = moved > 0 || !sameSets(this.#left, this.#foundLeft);
-    const words = [
-      ...(moved > 0 ? [moved === 1 ? "1 light changed" : `${moved} lights changed`] : []),
-      ...(leftOut > 0 ? [leftOut === 1 ? "1 photograph left out" : `${leftOut} photographs left out`] : []),
-    ];
     const tooFew = this.#lights.length - leftOut < 3;
-    say(this.#words, tooFew ? "Three photographs at least must stay." : words.join(", "));
+    say(this.#words, tooFew ? texts.lights.tooFew : texts.lights.changes(moved, leftOut));
     this.#again.disabled = !changed || tooFew;
     this.#undo.disabled = !changed;
     this.#page.changed();
@@ -228,7 +223,7 @@ export class LightHand {
     const photographs = used.map(({ light }) => stack.fileOf(light.file));
     const present = photographs.filter((file) => file !== undefined);
     if (present.length < used.length || !this.#estimate) {
-      say(this.#words, "These photographs are no longer on the bench: choose them again first.");
+      say(this.#words, texts.lights.gone);
       return;
     }
     const { files, plan } = this.#estimate;
@@ -244,7 +239,7 @@ export class LightHand {
         ...(mask ? { mask: new File([mask.bytes], "mask.png", { type: "image/png" }) } : {}),
       });
     } catch (error) {
-      say(this.#words, wordsOf(error));
+      sayError(this.#words, error);
     } finally {
       this.#own = false;
     }

@@ -1,4 +1,5 @@
-import { elevation, type HandLight, inWords, sureness } from "./light.js";
+import { texts } from "../texts/texts.js";
+import { elevation, type HandLight, inWords } from "./light.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -28,13 +29,10 @@ export class Hemisphere {
     this.#actions = actions;
     const { element } = this;
     element.setAttribute("role", "listbox");
-    element.setAttribute(
-      "aria-label",
-      "Lights. Arrow keys choose one, with Shift they move it, Delete leaves its photograph out.",
-    );
+    element.setAttribute("aria-label", texts.lights.map);
     const rings = RINGS.map((r) => shape("circle", { class: "ring", r }));
     const cross = shape("path", { class: "ring", d: "M-1 0H1M0 -1V1" });
-    const words = ["left", "right"].map((word, at) => {
+    const words = [texts.directions.left, texts.directions.right].map((word, at) => {
       const text = shape("text", { x: at ? 0.98 : -0.98, y: -0.03, "text-anchor": at ? "end" : "start" });
       text.textContent = word;
       return text;
@@ -70,7 +68,7 @@ export class Hemisphere {
         class: left.has(index) ? "dot left-out" : "dot",
       });
       const title = shape("title", {});
-      title.textContent = `${file}: ${inWords(light)}; intensity ${intensity.toFixed(2)}; ${sureness(confidence)}${left.has(index) ? "; left out" : ""}`;
+      title.textContent = texts.lights.dot(file, inWords(light), intensity, confidence, left.has(index));
       dot.setAttribute("aria-label", title.textContent);
       dot.append(title);
       dot.addEventListener("pointerenter", () => this.#actions.point(index));

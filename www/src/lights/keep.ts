@@ -1,4 +1,5 @@
-import { make, say, wordsOf } from "../dom.js";
+import { make, say, sayError } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import type { HandLight } from "./light.js";
 import { lightsOf, toCsv, toJson, toLp } from "./light_text.js";
 import type { Rigs } from "./rigs.js";
@@ -33,22 +34,22 @@ export class LightKeep {
   #files(): HTMLElement {
     const picker = make("input");
     Object.assign(picker, { type: "file", hidden: true, id: "hand-file", accept: ".lp,.csv,.json,.txt" });
-    picker.setAttribute("aria-label", "File of lights");
+    picker.setAttribute("aria-label", texts.lights.file);
     picker.addEventListener("change", async () => {
       const [file] = picker.files ?? [];
       picker.value = "";
       if (file)
         await this.#try(async () => {
           this.#hand.load(lightsOf(await file.text(), file.name));
-          say(this.#words, `Lights of ${file.name}: “Estimate normals again” uses them.`);
+          say(this.#words, texts.lights.loaded(file.name));
         });
     });
-    const load = make("button", "quiet", "Load…");
+    const load = make("button", "quiet", texts.lights.load);
     load.type = "button";
-    load.title = "Lights from an .lp, our CSV or JSON";
+    load.title = texts.lights.loadTitle;
     load.addEventListener("click", () => picker.click());
     const saves = Object.entries(FORMATS).map(([name, { words, type, text }]) => {
-      const save = make("button", "quiet", `Save ${words}`);
+      const save = make("button", "quiet", texts.lights.save(words));
       save.type = "button";
       save.dataset.save = name;
       save.addEventListener("click", () => download(new File([text(this.#hand.lights())], name, { type })));
@@ -58,12 +59,12 @@ export class LightKeep {
   }
 
   #rig(): HTMLElement {
-    const keep = make("button", "quiet", "Keep as rig");
+    const keep = make("button", "quiet", texts.lights.keepRig);
     keep.type = "button";
     keep.id = "rig-keep";
-    keep.title = "For the next object under the same lamps; stays in this browser";
-    Object.assign(this.#name, { id: "rig-new", placeholder: "name of the rig", maxLength: 60 });
-    this.#name.setAttribute("aria-label", "Name of the rig");
+    keep.title = texts.lights.keepRigTitle;
+    Object.assign(this.#name, { id: "rig-new", placeholder: texts.lights.rigPlaceholder, maxLength: 60 });
+    this.#name.setAttribute("aria-label", texts.lights.rigName);
     const act = () => void this.#try(() => this.#keep());
     keep.addEventListener("click", act);
     this.#name.addEventListener("keydown", (event) => {
@@ -76,19 +77,19 @@ export class LightKeep {
     const name = this.#name.value.trim();
     if (name === "") {
       this.#name.focus();
-      throw new Error("Give the rig a name first.");
+      throw new Error(texts.lights.rigFirst);
     }
     const lights = this.#hand.lights();
     this.#rigs.keep({ name, lights });
     this.#name.value = "";
-    say(this.#words, `Kept: ${name}, ${lights.length} lights. Choose it under Lights for the next object.`);
+    say(this.#words, texts.lights.rigKept(name, lights.length));
   }
 
   async #try(work: () => unknown): Promise<void> {
     try {
       await work();
     } catch (error) {
-      say(this.#words, wordsOf(error));
+      sayError(this.#words, error);
     }
   }
 }

@@ -1,3 +1,4 @@
+import { texts } from "../texts/texts.js";
 /** A light as the hand holds it: a unit vector (x right, y up, z to the camera) and how bright it is. */
 export interface HandLight {
   readonly file: string;
@@ -28,15 +29,5 @@ export function azimuth({ x, y }: HandLight): number {
 /** A direction in words: where the lamp stood, seen from the camera. */
 export function inWords(light: HandLight): string {
   const up = Math.round(elevation(light));
-  if (up > 80) return "beside the camera";
-  const sides = ["right", "upper right", "top", "upper left", "left", "lower left", "bottom", "lower right"];
-  const side = sides[Math.round(azimuth(light) / 45) % 8];
-  return `${side}, ${up}° above the picture`;
-}
-
-/** How sure a light is, in words: numbers alone say little. */
-export function sureness(confidence: number): string {
-  const share = `${Math.round(100 * confidence)} %`;
-  if (confidence >= 0.75) return `sure, ${share}`;
-  return confidence >= 0.45 ? `fairly sure, ${share}` : `doubtful, ${share}`;
+  return up > 80 ? texts.directions.beside : texts.directions.above(Math.round(azimuth(light) / 45) % 8, up);
 }

@@ -1,3 +1,4 @@
+import { texts } from "../texts/texts.js";
 import { directed, type HandLight } from "./light.js";
 
 /** The header of our tables, as the estimator writes and reads them. */
@@ -32,7 +33,7 @@ export function toJson(lights: readonly HandLight[]): string {
 /** Lights out of our table, an `.lp` or our JSON; other tables are the estimator's work. */
 export function lightsOf(text: string, name: string): HandLight[] {
   const lights = /^\s*[[{]/.test(text) ? fromJson(text, name) : fromLines(text);
-  if (lights.length === 0) throw new Error(`${name}: no lights are found in it`);
+  if (lights.length === 0) throw new Error(texts.lights.noLights(name));
   return lights;
 }
 
@@ -41,14 +42,14 @@ function fromJson(text: string, name: string): HandLight[] {
   try {
     read = JSON.parse(text);
   } catch {
-    throw new Error(`${name}: it is not complete JSON`);
+    throw new Error(texts.lights.noJson(name));
   }
   const list: unknown = Array.isArray(read) ? read : Object(read).lights;
-  if (!Array.isArray(list)) throw new Error(`${name}: expected a list of lights, or an object with "lights"`);
+  if (!Array.isArray(list)) throw new Error(texts.lights.noList(name));
   return list.map((one: unknown, index) => {
     const { file, x, y, z, intensity, confidence } = Object(one) as Record<string, unknown>;
     const light = lightFrom(String(file ?? index + 1), [x, y, z, intensity, confidence]);
-    if (!light) throw new Error(`${name}: light ${index + 1} has no direction (x, y, z)`);
+    if (!light) throw new Error(texts.lights.noDirection(name, index + 1));
     return light;
   });
 }

@@ -1,4 +1,5 @@
 import { byId, say } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { toCsv } from "./light_text.js";
 import type { Rig, Rigs } from "./rigs.js";
 
@@ -45,7 +46,7 @@ export class RigChoice {
   lacking(photographs: number): string {
     const { rig } = this;
     if (!rig || rig.lights.length === photographs) return "";
-    return `The rig ${rig.name} has ${rig.lights.length} lights, but there are ${photographs} photographs: each needs its light.`;
+    return texts.lights.rigLacking(rig.name, rig.lights.length, photographs);
   }
 
   /** The rig's lights for photographs in their order. */
@@ -67,7 +68,7 @@ export class RigChoice {
     const before = this.#select.value;
     const { all } = this.#rigs;
     this.#select.replaceChildren(
-      ...all.map(({ name, lights }) => new Option(`${name} (${lights.length} lights)`, name)),
+      ...all.map(({ name, lights }) => new Option(texts.lights.rig(name, lights.length), name)),
     );
     if (all.some(({ name }) => name === before)) this.#select.value = before;
     this.#radio.disabled = all.length === 0;
@@ -93,7 +94,7 @@ export class RigChoice {
     const to = this.#name.value.trim();
     if (!this.#rigs.rename(from, to)) {
       this.#name.value = from;
-      say(this.#words, to === "" ? "A rig needs a name." : `There is a rig ${to} already.`);
+      say(this.#words, to === "" ? texts.lights.rigUnnamed : texts.lights.rigTaken(to));
       return;
     }
     this.#select.value = to;

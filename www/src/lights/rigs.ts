@@ -1,3 +1,4 @@
+import { language } from "../texts/language.js";
 import type { HandLight } from "./light.js";
 
 /** Lights that stay where they are from object to object, under a name. */
@@ -49,7 +50,7 @@ export class Rigs {
   }
 
   #set(rigs: Rig[]): void {
-    const sorted = rigs.sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
+    const sorted = rigs.sort((a, b) => a.name.localeCompare(b.name, language, { numeric: true }));
     // First: a browser that keeps nothing says so by an error, and the list must not pretend.
     localStorage.setItem(KEY, JSON.stringify(sorted));
     this.#rigs = sorted;

@@ -1,5 +1,7 @@
 import { make } from "../dom.js";
 import { Roving } from "../roving.js";
+import { fixed, signed } from "../texts/numbers.js";
+import { texts } from "../texts/texts.js";
 import type { HandLight } from "./light.js";
 
 /** All lights as rows; one of them is chosen. */
@@ -49,9 +51,9 @@ export class LightTable {
       "tr",
       used ? "" : "left-out",
       make("th", "", name),
-      ...[x, y, z].map((value) => make("td", "number", value.toFixed(3).replace("-", "−"))),
-      make("td", "", bar(intensity / most, intensity.toFixed(2))),
-      make("td", "", used ? bar(confidence, `${Math.round(100 * confidence)} %`) : "left out"),
+      ...[x, y, z].map((value) => make("td", "number", signed(fixed(value, 3)))),
+      make("td", "", bar(intensity / most, fixed(intensity, 2))),
+      make("td", "", used ? bar(confidence, texts.lights.percent(confidence)) : texts.lights.leftOut),
     );
     row.addEventListener("pointerenter", () => this.#heard.point(index));
     return row;

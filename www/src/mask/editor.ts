@@ -1,5 +1,6 @@
 import type { ObjectMask } from "normalight";
-import { make, wordsOf } from "../dom.js";
+import { make, sayError } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { MaskDocument } from "./document.js";
 import { MaskPanel } from "./panel.js";
 import type { Operation, Picture, Pixels } from "./protocol.js";
@@ -37,7 +38,7 @@ async function opened(
   index: number,
 ): Promise<Picture> {
   const file = photographs[index];
-  if (file === undefined) throw new Error("There is no photograph to draw a mask on.");
+  if (file === undefined) throw new Error(texts.mask.noPhotograph);
   try {
     return await work.do("open", file);
   } catch {
@@ -57,9 +58,9 @@ class MaskEditor {
   readonly #view: MaskView;
   readonly #stage: MaskStage;
   readonly #panel: MaskPanel;
-  readonly #undo = button("undo", "Undo", "Takes back the last step (Ctrl Z)", () => this.#document.undo());
-  readonly #redo = button("redo", "Redo", "Does it again (Ctrl Shift Z)", () => this.#document.redo());
-  readonly #done = button("done", "Done", "Takes this mask", () => this.#finish());
+  readonly #undo = button("undo", texts.mask.undo, texts.mask.undoTitle, () => this.#document.undo());
+  readonly #redo = button("redo", texts.mask.redo, texts.mask.redoTitle, () => this.#document.redo());
+  readonly #done = button("done", texts.mask.done, texts.mask.doneTitle, () => this.#finish());
   #end: (file: File | undefined) => void = () => {};
   /** Heavy things under way. */
   #busy = 0;
@@ -101,9 +102,9 @@ class MaskEditor {
       operate: (operation) => void this.#operate(operation),
       fill: (inside) => this.#document.fill(inside ? INSIDE : 0),
       automatic: () => void this.#automatic(),
-      load: (file) => void this.#while(`Loading ${file.name}`, () => this.#load(file)),
+      load: (file) => void this.#while(texts.mask.loading(file.name), () => this.#load(file)),
       show: (index) =>
-        void this.#while("Loading the photograph", async () =>
+        void this.#while(texts.mask.loadingPhotograph, async () =>
           this.#view.show(await opened(this.#input, this.#work, index)),
         ),
       lighten: (lightened) => this.#view.lighten(lightened),
@@ -111,7 +112,7 @@ class MaskEditor {
   }
 
   #build(): void {
-    const title = make("h2", "", "Mask");
+    const title = make("h2", "", texts.mask.title);
     title.id = "mask-editor-title";
     this.#dialog.setAttribute("aria-labelledby", title.id);
     this.#words.setAttribute("role", "status");
@@ -125,15 +126,15 @@ class MaskEditor {
       make(
         "div",
         "mask-row",
-        button("closer", "+", "Larger (plus key)", () => this.#view.zoom(1.4)),
-        button("farther", "−", "Smaller (minus key)", () => this.#view.zoom(1 / 1.4)),
-        button("fit", "Fit", "The whole photograph (key 0)", () => this.#view.fit()),
-        button("pixels", "1:1", "Pixel for pixel (key 1)", () => this.#view.zoom(1 / this.#view.scale)),
+        button("closer", "+", texts.mask.largerTitle, () => this.#view.zoom(1.4)),
+        button("farther", "−", texts.mask.smallerTitle, () => this.#view.zoom(1 / 1.4)),
+        button("fit", texts.mask.fit, texts.mask.fitTitle, () => this.#view.fit()),
+        button("pixels", "1:1", texts.mask.actualTitle, () => this.#view.zoom(1 / this.#view.scale)),
       ),
       make(
         "div",
         "mask-row",
-        button("cancel", "Cancel", "Leaves the mask as it was", () => this.#close()),
+        button("cancel", texts.mask.cancel, texts.mask.cancelTitle, () => this.#close()),
         this.#done,
       ),
     );
@@ -147,12 +148,12 @@ class MaskEditor {
 
   /** Shows the mask that counts now; whoever does not wait for it and begins to paint keeps what is painted. */
   async #begin(): Promise<void> {
-    this.#say("Looking for the object …");
+    this.#say(texts.mask.looking);
     const { history } = this.#document;
     try {
       const mask = await this.#input.begin();
       if (history.canUndo || !this.#dialog.open) return;
-      await this.#while("Looking for the object", async () => {
+      await this.#while(texts.mask.looking, async () => {
         if (typeof mask === "number") this.#document.fill(mask);
         else if (mask instanceof File) await this.#load(mask);
         else await this.#take(mask);
@@ -160,20 +161,20 @@ class MaskEditor {
       history.forget();
       this.#tell();
     } catch (error) {
-      this.#say(wordsOf(error));
+      sayError(this.#words, error);
     }
   }
 
   async #automatic(): Promise<void> {
-    await this.#while("Looking for the object", async () => {
+    await this.#while(texts.mask.looking, async () => {
       const mask = await this.#input.automatic();
-      if (!mask) throw new Error("There is no automatic mask here; by brightness comes close to it.");
+      if (!mask) throw new Error(texts.mask.noAutomatic);
       await this.#take(mask);
     });
   }
 
   async #operate(operation: Operation): Promise<void> {
-    await this.#while("Working", () => this.#document.operate(operation));
+    await this.#while(texts.mask.working, () => this.#document.operate(operation));
   }
 
   async #take(mask: ObjectMask): Promise<void> {
@@ -191,18 +192,18 @@ class MaskEditor {
     this.#busy += 1;
     this.#stage.locked = true;
     // Short work needs no words, they would only flicker.
-    const patience = setTimeout(() => this.#say(`${words} …`), 200);
-    let problem = "";
+    const patience = setTimeout(() => this.#say(words), 200);
+    let problem: unknown;
     try {
       await work();
     } catch (error) {
-      problem = wordsOf(error);
+      problem = error;
     }
     clearTimeout(patience);
     this.#busy -= 1;
     this.#stage.locked = this.#busy > 0;
     this.#tell();
-    if (problem) this.#say(problem);
+    if (problem) sayError(this.#words, problem);
   }
 
   /** Says how much is inside, soon: counting keeps no stroke waiting. */
@@ -217,10 +218,7 @@ class MaskEditor {
     this.#counting = setTimeout(() => {
       const pixels = tiles.count();
       this.#done.disabled = pixels === 0;
-      const share = (100 * pixels) / (tiles.width * tiles.height);
-      const inside = pixels === 0 ? "Nothing is inside: paint the object" : `${share.toFixed(1)} % inside`;
-      if (this.#busy === 0)
-        this.#say(`${inside}, ${pixels.toLocaleString("en")} of ${tiles.width} × ${tiles.height} pixels`);
+      if (this.#busy === 0) this.#say(texts.mask.inside(pixels, tiles.width, tiles.height));
     }, 120);
   }
 
@@ -238,7 +236,7 @@ class MaskEditor {
       event.preventDefault();
       return;
     }
-    const tool = Object.entries(TOOLS).find(([, { key }]) => key === event.key)?.[0];
+    const tool = Object.entries(TOOLS).find(([, key]) => key === event.key)?.[0];
     if (tool) this.#panel.tools.choose(tool as keyof typeof TOOLS);
     else if (event.key === "[" || event.key === "]") this.#panel.resize(event.key === "[" ? -1 : 1);
     else if (event.key === "+" || event.key === "=") this.#view.zoom(1.4);
@@ -251,13 +249,13 @@ class MaskEditor {
   #warns(): boolean {
     if (this.#warned || !this.#document.history.canUndo) return false;
     this.#warned = true;
-    this.#say("Escape once more leaves without these changes; Done keeps them.");
+    this.#say(texts.mask.leaving);
     return true;
   }
 
   async #finish(): Promise<void> {
     const { width, height } = this.#document.tiles;
-    await this.#while("Writing the mask", async () => {
+    await this.#while(texts.mask.writing, async () => {
       const mask = await this.#document.whole();
       const png = await this.#work.do("encode", { mask, width, height }, [mask.buffer]);
       this.#close(new File([png], "mask.png", { type: "image/png" }));

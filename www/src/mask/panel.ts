@@ -1,4 +1,5 @@
 import { make } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { MOST_PIXELS } from "./operations.js";
 import type { Operation } from "./protocol.js";
 import type { Tool } from "./stage.js";
@@ -32,14 +33,14 @@ export class MaskPanel {
     const radius = (value: number) => Math.max(largest ** value, 0.5);
     this.#size = new Slider(
       "mask-size",
-      "Size",
+      texts.mask.size,
       { min: 0, max: 1, step: 0.005, value: 0.55 },
-      (value) => `${Math.round(2 * radius(value))} px`,
+      (value) => texts.mask.diameter(Math.round(2 * radius(value))),
       (value) => actions.radius(radius(value)),
     );
     actions.radius(radius(this.#size.value));
     this.element.append(
-      group("Tool", this.tools.element, this.#size.element),
+      group(texts.mask.tool, this.tools.element, this.#size.element),
       this.#brightness(),
       this.#edge(),
       this.#whole(),
@@ -60,20 +61,20 @@ export class MaskPanel {
 
   #brightness(): HTMLElement {
     const side = make("select");
-    side.setAttribute("aria-label", "Which side is the object");
-    side.append(new Option("and brighter", "brighter"), new Option("and darker", "darker"));
+    side.setAttribute("aria-label", texts.mask.side);
+    side.append(new Option(texts.mask.brighter, "brighter"), new Option(texts.mask.darker, "darker"));
     const apply = () =>
       this.#actions.operate({ kind: "threshold", level: level.value, brighter: side.value === "brighter" });
     const level = new Slider(
       "mask-level",
-      "Brightness",
+      texts.mask.brightness,
       { min: 1, max: 255, step: 1, value: 32 },
-      (value) => `${Math.round((100 * value) / 255)} %`,
+      (value) => texts.mask.percent(Math.round((100 * value) / 255)),
       apply,
     );
     side.addEventListener("change", apply);
-    const take = button("threshold", "Take", "Takes all pixels of this brightness for the object", apply);
-    return group("By brightness", level.element, row(side, take));
+    const take = button("threshold", texts.mask.take, texts.mask.takeTitle, apply);
+    return group(texts.mask.byBrightness, level.element, row(side, take));
   }
 
   #edge(): HTMLElement {
@@ -85,19 +86,19 @@ export class MaskPanel {
       max: String(MOST_PIXELS),
       value: "2",
     });
-    pixels.setAttribute("aria-label", "Pixels to grow or shrink by");
+    pixels.setAttribute("aria-label", texts.mask.edgePixels);
     const by = (kind: "grow" | "shrink") => () => {
       const radius = Math.min(Math.max(Math.round(pixels.valueAsNumber) || 1, 1), MOST_PIXELS);
       pixels.value = String(radius);
       this.#actions.operate({ kind, radius });
     };
     return group(
-      "Edge",
+      texts.mask.edge,
       row(
-        make("label", "mask-pixels", pixels, "px"),
-        button("grow", "Grow", "Moves the edge outwards", by("grow")),
-        button("shrink", "Shrink", "Moves the edge inwards", by("shrink")),
-        button("holes", "Fill holes", "Takes what is enclosed into the object", () =>
+        make("label", "mask-pixels", pixels, texts.mask.px),
+        button("grow", texts.mask.grow, texts.mask.growTitle, by("grow")),
+        button("shrink", texts.mask.shrink, texts.mask.shrinkTitle, by("shrink")),
+        button("holes", texts.mask.holes, texts.mask.holesTitle, () =>
           this.#actions.operate({ kind: "holes" }),
         ),
       ),
@@ -108,24 +109,22 @@ export class MaskPanel {
     const picker = make("input");
     picker.type = "file";
     picker.hidden = true;
-    picker.setAttribute("aria-label", "Mask image");
+    picker.setAttribute("aria-label", texts.mask.file);
     picker.addEventListener("change", () => {
       const [file] = picker.files ?? [];
       if (file) this.#actions.load(file);
       picker.value = "";
     });
     return group(
-      "Whole mask",
+      texts.mask.whole,
       row(
-        button("automatic", "Automatic", "The mask that the estimator would take", () =>
-          this.#actions.automatic(),
-        ),
-        button("load", "Load…", "A mask from a file", () => picker.click()),
-        button("invert", "Invert", "Swaps inside and outside", () =>
+        button("automatic", texts.mask.automatic, texts.mask.automaticTitle, () => this.#actions.automatic()),
+        button("load", texts.mask.load, texts.mask.loadTitle, () => picker.click()),
+        button("invert", texts.mask.invert, texts.mask.invertTitle, () =>
           this.#actions.operate({ kind: "invert" }),
         ),
-        button("frame", "Whole frame", "All pixels belong to the object", () => this.#actions.fill(true)),
-        button("clear", "Clear", "No pixel belongs to the object", () => this.#actions.fill(false)),
+        button("frame", texts.mask.frame, texts.mask.frameTitle, () => this.#actions.fill(true)),
+        button("clear", texts.mask.clear, texts.mask.clearTitle, () => this.#actions.fill(false)),
         picker,
       ),
     );
@@ -133,11 +132,14 @@ export class MaskPanel {
 
   #photograph(names: readonly string[]): HTMLElement {
     const choice = make("select");
-    choice.setAttribute("aria-label", "Photograph under the mask");
+    choice.setAttribute("aria-label", texts.mask.photographUnder);
     choice.append(...names.map((name, index) => new Option(name, String(index))));
     choice.addEventListener("change", () => this.#actions.show(Number(choice.value)));
     this.#lighten.type = "checkbox";
     this.#lighten.addEventListener("change", () => this.#actions.lighten(this.#lighten.checked));
-    return group("Photograph", row(choice, make("label", "switch", this.#lighten, "lightened")));
+    return group(
+      texts.mask.photograph,
+      row(choice, make("label", "switch", this.#lighten, texts.mask.lightened)),
+    );
   }
 }

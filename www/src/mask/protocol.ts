@@ -36,6 +36,18 @@ export interface MaskTasks {
 
 export type MaskTask = keyof MaskTasks;
 
+/** A size in pixels. */
+interface Frame {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** What went wrong in the worker: the page has words for it, or they are the browser's. */
+export type Problem =
+  | { readonly kind: "shape"; readonly mask: Frame; readonly photograph: Frame }
+  | { readonly kind: "canvas" }
+  | { readonly kind: "other"; readonly words: string };
+
 export interface ToMaskWorker<T extends MaskTask = MaskTask> {
   readonly id: number;
   readonly task: T;
@@ -44,4 +56,4 @@ export interface ToMaskWorker<T extends MaskTask = MaskTask> {
 
 export type FromMaskWorker =
   | { readonly id: number; readonly response: MaskTasks[MaskTask]["response"] }
-  | { readonly id: number; readonly problem: string };
+  | { readonly id: number; readonly problem: Problem };

@@ -1,8 +1,9 @@
 import type { EstimateOptions } from "normalight";
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError } from "../dom.js";
 import type { Engine } from "../engine.js";
 import type { Settings } from "../settings.js";
 import type { Stack } from "../stack.js";
+import { texts } from "../texts/texts.js";
 import { INSIDE } from "./tiles.js";
 
 /** Longer side in pixels of photographs that only the estimator decodes: as large as they are. */
@@ -25,10 +26,7 @@ export class MaskSetting {
 
   async #edit(): Promise<void> {
     const { photographs } = this.#stack;
-    say(
-      this.#problem,
-      photographs.length === 0 ? "Choose photographs first: the mask is drawn on them." : "",
-    );
+    say(this.#problem, photographs.length === 0 ? texts.mask.noPhotographs : "");
     if (photographs.length === 0) return;
     this.#button.disabled = true;
     try {
@@ -45,7 +43,7 @@ export class MaskSetting {
       });
       if (mask) this.#settings.drawnMask(mask);
     } catch (error) {
-      say(this.#problem, wordsOf(error));
+      sayError(this.#problem, error);
     }
     this.#button.disabled = false;
     this.#button.focus();

@@ -1,4 +1,5 @@
 import { make } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import type { MaskDocument } from "./document.js";
 import { Guides } from "./guides.js";
 import type { Place } from "./shapes.js";
@@ -48,10 +49,7 @@ export class MaskStage {
     const { element } = this;
     element.tabIndex = 0;
     element.setAttribute("role", "application");
-    element.setAttribute(
-      "aria-label",
-      "Photograph with the mask. Arrow keys move the brush, Space paints or sets a corner, Enter closes a polygon, plus and minus zoom.",
-    );
+    element.setAttribute("aria-label", texts.mask.stage);
     element.append(view.element, this.#guides.element);
     element.addEventListener("pointerdown", (event) => this.#down(event));
     element.addEventListener("pointermove", (event) => this.#move(event));

@@ -1,4 +1,5 @@
 import { make } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import type { Tool } from "./stage.js";
 
 /** A button with a name for scripts, words and what it does. */
@@ -65,17 +66,13 @@ export class Slider {
   }
 }
 
-/** The tools, their keys, and what they are for. */
-export const TOOLS: Record<Tool, { words: string; key: string; title: string }> = {
-  brush: { words: "Brush", key: "b", title: "Paints what belongs to the object; the right button erases" },
-  eraser: { words: "Eraser", key: "e", title: "Paints what does not belong to the object" },
-  polygon: {
-    words: "Polygon",
-    key: "p",
-    title: "Adds what lies within corners; Enter or a double click closes",
-  },
-  cut: { words: "Cut out", key: "c", title: "Removes what lies within corners" },
-  move: { words: "Move", key: "h", title: "Moves the photograph; the middle button does so with every tool" },
+/** The tools and their keys. */
+export const TOOLS: Readonly<Record<Tool, string>> = {
+  brush: "b",
+  eraser: "e",
+  polygon: "p",
+  cut: "c",
+  move: "h",
 };
 
 /** Which tool is in the hand. */
@@ -86,13 +83,14 @@ export class ToolChoice {
   constructor(chosen: (tool: Tool) => void) {
     this.#chosen = chosen;
     this.element.setAttribute("role", "radiogroup");
-    this.element.setAttribute("aria-label", "Tool");
-    for (const [tool, { words, key, title }] of Object.entries(TOOLS)) {
+    this.element.setAttribute("aria-label", texts.mask.tool);
+    for (const [tool, key] of Object.entries(TOOLS)) {
+      const { words, title } = texts.mask.tools[tool as Tool];
       const radio = make("input");
       Object.assign(radio, { type: "radio", name: "mask-tool", value: tool, checked: tool === "brush" });
       radio.addEventListener("change", () => chosen(tool as Tool));
       const label = make("label", "", radio, make("span", "", words));
-      label.title = `${title} (key ${key.toUpperCase()})`;
+      label.title = texts.mask.withKey(title, key.toUpperCase());
       this.element.append(label);
     }
   }

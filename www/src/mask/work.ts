@@ -1,3 +1,4 @@
+import { texts } from "../texts/texts.js";
 import type { FromMaskWorker, MaskTask, MaskTasks } from "./protocol.js";
 
 interface Waiting {
@@ -15,12 +16,12 @@ export class MaskWork {
     this.#worker.addEventListener("message", ({ data }: MessageEvent<FromMaskWorker>) => {
       const waiting = this.#waiting.get(data.id);
       this.#waiting.delete(data.id);
-      if ("problem" in data) waiting?.reject(new Error(data.problem));
+      if ("problem" in data) waiting?.reject(new Error(texts.mask.problem(data.problem)));
       else waiting?.resolve(data.response);
     });
     this.#worker.addEventListener("error", (event) => {
       event.preventDefault();
-      this.#fail(`The mask editor's worker stopped: ${event.message || "out of memory"}`);
+      this.#fail(texts.mask.stopped(event.message || texts.large.outOfMemory));
     });
   }
 
@@ -40,7 +41,7 @@ export class MaskWork {
 
   close(): void {
     this.#worker.terminate();
-    this.#fail("The mask editor was closed.");
+    this.#fail(texts.mask.closed);
   }
 
   #fail(words: string): void {

@@ -7,6 +7,7 @@ import type {
   Operation,
   Picture,
   Pixels,
+  Problem,
   ToMaskWorker,
 } from "./protocol.js";
 
@@ -26,14 +27,26 @@ const SMALLEST = 1500;
 /** Brightness of the photograph that was opened last. */
 let grey = new Uint8Array(0);
 
+/** Something that the page has words for. */
+class Failure extends Error {
+  constructor(readonly problem: Problem) {
+    super(problem.kind);
+  }
+}
+
 scope.addEventListener("message", async ({ data: { id, task, request } }) => {
   try {
     const response = await perform(task, request);
     scope.postMessage({ id, response }, transferable(response));
   } catch (error) {
-    scope.postMessage({ id, problem: error instanceof Error ? error.message : String(error) }, []);
+    scope.postMessage({ id, problem: problemOf(error) }, []);
   }
 });
+
+function problemOf(error: unknown): Problem {
+  if (error instanceof Failure) return error.problem;
+  return { kind: "other", words: error instanceof Error ? error.message : String(error) };
+}
 
 function perform(task: MaskTask, request: unknown): Promise<MaskTasks[MaskTask]["response"]> {
   switch (task) {
@@ -82,9 +95,11 @@ async function decode({
   const bitmap = await createImageBitmap(file);
   const shape = bitmap.width / bitmap.height / (width / height);
   if (shape < 0.98 || shape > 1.02)
-    throw new Error(
-      `the mask has ${bitmap.width}x${bitmap.height} pixels, the photograph ${width}x${height}`,
-    );
+    throw new Failure({
+      kind: "shape",
+      mask: { width: bitmap.width, height: bitmap.height },
+      photograph: { width, height },
+    });
   return threshold(brightness(bitmap, width, height), 128, true);
 }
 
@@ -112,7 +127,7 @@ function operate(
 function brightness(picture: ImageBitmap, width: number, height: number): Uint8Array<ArrayBuffer> {
   const canvas = new OffscreenCanvas(width, Math.min(ROWS, height));
   const drawing = canvas.getContext("2d", { willReadFrequently: true });
-  if (drawing === null) throw new Error("this browser cannot draw");
+  if (drawing === null) throw new Failure({ kind: "canvas" });
   drawing.imageSmoothingEnabled = false;
   const values = new Uint8Array(width * height);
   for (let top = 0; top < height; top += ROWS) {

@@ -2,6 +2,8 @@ import { context, make, paint } from "../dom.js";
 import type { Skin } from "../relight/painter.js";
 import { FRAGMENT, VERTEX } from "../relight/program.js";
 import type { Lamp, Look } from "../relight/shading.js";
+import { language } from "../texts/language.js";
+import { texts } from "../texts/texts.js";
 import { escaped, fill } from "./fill.js";
 import style from "./share/page.css?raw";
 import template from "./share/page.html?raw";
@@ -23,6 +25,7 @@ export async function sharePage(
     Math.max(1, Math.round(scale * skin.width)),
     Math.max(1, Math.round(scale * skin.height)),
   ];
+  const { page } = texts.out;
   const data = {
     width,
     height,
@@ -30,12 +33,15 @@ export async function sharePage(
     fragment: FRAGMENT,
     lamps,
     look,
+    unreadable: page.unreadable,
     // Opaque: colours of half transparent pixels would not stay what they are.
     normals: await pngOf(skin, normalColours, [width, height], "#8080ff"),
     albedo: await pngOf(skin, skin.albedo, [width, height]),
   };
   return fill(template, {
-    title: escaped(name === "" ? "Relightable object" : name),
+    ...Object.fromEntries(Object.entries(page).map(([key, words]) => [key, escaped(words)])),
+    language,
+    title: escaped(name === "" ? page.untitled : name),
     style,
     // A script ends at the first such tag, whatever the quotes around it.
     data: JSON.stringify(data).replaceAll("<", "\\u003c"),
@@ -61,7 +67,7 @@ async function pngOf(
   drawing.imageSmoothingQuality = "high";
   drawing.drawImage(whole, 0, 0, wide, high);
   const blob = await new Promise<Blob | null>((resolve) => small.toBlob(resolve, "image/png"));
-  if (!blob) throw new Error("this browser cannot write the picture");
+  if (!blob) throw new Error(texts.out.noPicture);
   return await addressOf(blob);
 }
 

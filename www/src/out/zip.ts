@@ -1,5 +1,6 @@
 import { Zip, ZipDeflate, ZipPassThrough, type Zippable, zipSync } from "fflate";
 import type { Kept } from "../downloads.js";
+import { texts } from "../texts/texts.js";
 
 /** What gets smaller by packing; numbers and pictures hardly do, and would keep the page waiting. */
 const PACKED = /\.(csv|lp|svg|json|obj|mtl|html)$/;
@@ -32,8 +33,7 @@ export async function zipOfFolders(
       zip.add(entry);
       entry.push(bytes, true);
     }
-    if (size > MOST)
-      throw new Error("One archive of all would be larger than 4 GB: download the results one by one.");
+    if (size > MOST) throw new Error(texts.out.tooLarge);
   }
   zip.end();
   return new Blob(parts, { type: "application/zip" });

@@ -1,7 +1,7 @@
-import { byId, make, say } from "../dom.js";
-
-/** How far a stack is. */
-export type State = "waiting" | "now" | "done" | "failed" | "cancelled";
+import { byId, make, say, sayError, sayReason } from "../dom.js";
+import { takenWords } from "../large/taken.js";
+import { texts } from "../texts/texts.js";
+import type { State } from "./state.js";
 
 /** The stacks of a queue as people see them. */
 export class QueueList {
@@ -23,27 +23,27 @@ export class QueueList {
     this.#buttons = [];
     this.#section.hidden = false;
     this.#list.replaceChildren(
-      ...names.map((name) => make("li", "", make("b", "", name), make("span", "", "waiting"))),
+      ...names.map((name) => make("li", "", make("b", "", name), stateWords({ kind: "waiting" }))),
     );
     this.#zip.disabled = true;
     this.#forget.disabled = true;
-    this.fail("");
+    this.fail();
   }
 
   /** Says how far a stack is. */
-  tell(index: number, state: State, words: string): void {
+  tell(index: number, state: State): void {
     const item = this.#list.children[index];
     if (!(item instanceof HTMLElement)) return;
-    item.dataset.state = state;
+    item.dataset.state = state.kind;
     const name = item.firstElementChild?.textContent ?? "";
-    const said = make("span", "", words);
-    if (state !== "done") {
+    const said = stateWords(state);
+    if (state.kind !== "done") {
       item.replaceChildren(make("b", "", name), said);
       return;
     }
     const button = make("button", "", name);
     button.type = "button";
-    button.title = "Shows this result";
+    button.title = texts.queue.show;
     button.setAttribute("aria-pressed", "false");
     button.addEventListener("click", () => this.asked.show(index));
     this.#buttons[index] = button;
@@ -57,8 +57,9 @@ export class QueueList {
   }
 
   /** Says what went wrong with the list itself. */
-  fail(words: string): void {
-    say(this.#problem, words);
+  fail(error?: unknown): void {
+    if (error === undefined) say(this.#problem, "");
+    else sayError(this.#problem, error);
   }
 
   /** The queue has come to its end. */
@@ -81,4 +82,14 @@ export class QueueList {
     this.#section.hidden = true;
     this.#list.replaceChildren();
   }
+}
+
+function stateWords(state: State): HTMLElement {
+  const said = make("span");
+  if (state.kind === "failed") sayReason(said, state.reason, texts.queue.failed);
+  else if (state.kind === "done") {
+    const { photographs, width, height, seconds, taken } = state.facts;
+    said.textContent = texts.queue.done(photographs, width, height, takenWords(taken), seconds);
+  } else said.textContent = texts.queue.states[state.kind];
+  return said;
 }

@@ -1,13 +1,15 @@
 import type { Capture } from "../captures.js";
-import { wordsOf } from "../dom.js";
+import { reasonOf } from "../dom.js";
 import { fileNameOf, type Kept, store } from "../downloads.js";
 import { type Done, type Job, total } from "../job.js";
 import type { Format } from "../maps.js";
 import type { Outcome } from "../result.js";
 import type { Run } from "../run.js";
+import { texts } from "../texts/texts.js";
 import { jobOf, type Makings } from "./job.js";
 import { QueueList } from "./list.js";
 import { Results } from "./results.js";
+import type { KeptQueue, State, Term } from "./state.js";
 
 /** What a queue needs of the page. */
 export interface QueuePage extends Makings {
@@ -16,6 +18,8 @@ export interface QueuePage extends Makings {
   format(): Format;
   /** Shows a result, and puts its stack on the bench. */
   show(outcome: Outcome, entries: readonly Capture[], capture: Capture): void;
+  /** What is to be kept of it for a reload has changed. */
+  changed(): void;
 }
 
 /** Several stacks that are estimated one after the other; what is finished is kept, and one of them shown. */
@@ -28,10 +32,9 @@ export class Queue {
   });
   readonly #results = new Results();
   #captures: readonly Capture[] = [];
-  /** Those that are finished, in their order. */
-  #done: number[] = [];
-  #failed = 0;
-  #inMemory = false;
+  #states: State[] = [];
+  /** What became of keeping them. */
+  #term: Term = "page";
   /** The one that was asked for last, and its result. */
   #wanted: number | undefined;
   #shown: Outcome | undefined;
@@ -56,12 +59,8 @@ export class Queue {
         await this.#estimate(index, () => make(capture), signal);
     });
     this.#list.end();
-    const seconds = ((performance.now() - began) / 1000).toFixed(0);
-    const cancelled = captures.length - this.#done.length - this.#failed;
-    run.tell(
-      `${this.#words()} in ${seconds} s.${cancelled > 0 ? " Cancelled; what is finished is kept." : ""}`,
-    );
     const [first] = this.#done;
+    run.tell(texts.queue.end(...this.#counts, (performance.now() - began) / 1000));
     if (first !== undefined && this.#wanted === undefined) await this.#show(first);
   }
 
@@ -72,12 +71,59 @@ export class Queue {
     this.#list.mark(undefined);
   }
 
+  /** Finished results, which can be had after a reload; none where some are in this page's memory only. */
+  get kept(): KeptQueue | undefined {
+    if (this.#done.length === 0 || this.#term === "memory") return undefined;
+    const stacks = this.#captures.map(({ folder }, index) => ({
+      folder,
+      state: this.#states[index] ?? { kind: "waiting" as const },
+      result: this.#results.light(index),
+    }));
+    return { name: this.#results.name, stacks, shown: this.#shown && this.#wanted };
+  }
+
+  /** Hears what became of keeping them for a reload. */
+  keptFor(term: Exclude<Term, "memory">): void {
+    if (this.#term === term || this.#term === "memory" || this.#captures.length === 0) return;
+    this.#term = term;
+    this.#tell();
+  }
+
+  /** Takes a queue that was kept. @param outcome the result that is shown */
+  restore({ name, stacks, shown }: KeptQueue, outcome: Outcome | undefined): void {
+    this.#results.adopt(
+      name,
+      stacks.map(({ result }) => result),
+    );
+    this.#captures = stacks.map(({ folder, result }) => ({ folder, files: result?.files ?? [] }));
+    this.#list.begin(stacks.map(({ folder }) => folder));
+    for (const [index, { state }] of stacks.entries())
+      this.#say(index, isOver(state) ? state : { kind: "interrupted" });
+    this.#list.end();
+    this.#term = "reload";
+    this.#tell();
+    if (shown === undefined || !outcome) return;
+    [this.#wanted, this.#shown] = [shown, outcome];
+    this.#list.mark(shown);
+  }
+
+  /** Whether nothing of it is lost with the page. */
+  get lasts(): boolean {
+    return this.#done.length === 0 || this.#term === "reload";
+  }
+
+  /** Deletes what sessions left that are not kept any more. */
+  sweep(): void {
+    void this.#results.sweep().catch(() => undefined);
+  }
+
   async #begin(captures: readonly Capture[]): Promise<void> {
     this.#captures = captures;
-    [this.#done, this.#failed, this.#inMemory] = [[], 0, false];
+    [this.#states, this.#term] = [captures.map(() => ({ kind: "waiting" })), "page"];
     [this.#wanted, this.#shown] = [undefined, undefined];
     this.#list.begin(captures.map(({ folder }) => folder));
     this.#tell();
+    this.#page.changed();
     await this.#results.clear();
   }
 
@@ -87,65 +133,73 @@ export class Queue {
     const { run } = this.#page;
     try {
       signal.throwIfAborted();
-      this.#list.tell(index, "now", "is estimated now");
-      const which = `Stack ${index + 1} of ${this.#captures.length}, ${folder}`;
+      this.#say(index, { kind: "now" });
+      const which = texts.queue.stack(index + 1, this.#captures.length, folder);
       const [job, done] = await run.follow(make, signal, which);
       const outcome = { ...done, files: job.files, name: folder, format: this.#page.format() };
       const kept = await this.#results.keep(index, outcome);
-      this.#inMemory ||= !kept;
-      this.#done.push(index);
-      this.#list.tell(index, "done", doneWords(done));
+      if (!kept) this.#term = "memory";
+      this.#say(index, { kind: "done", facts: factsOf(done) });
+      this.#page.changed();
     } catch (error) {
-      if (!signal.aborted) this.#failed += 1;
-      if (signal.aborted) this.#list.tell(index, "cancelled", "not estimated: cancelled");
-      else this.#list.tell(index, "failed", `failed: ${wordsOf(error)}`);
+      this.#say(index, signal.aborted ? { kind: "cancelled" } : { kind: "failed", reason: reasonOf(error) });
     }
     this.#tell();
   }
 
-  #words(): string {
-    const failed = this.#failed > 0 ? `, ${this.#failed} failed` : "";
-    return `${this.#done.length} of ${this.#captures.length} stacks done${failed}`;
+  #say(index: number, state: State): void {
+    this.#states[index] = state;
+    this.#list.tell(index, state);
+  }
+
+  /** Those that are finished. */
+  get #done(): number[] {
+    return this.#states.flatMap(({ kind }, index) => (kind === "done" ? index : []));
+  }
+
+  /** How many are done, of how many, and how many failed. */
+  get #counts(): [number, number, number] {
+    const failed = this.#states.filter(({ kind }) => kind === "failed").length;
+    return [this.#done.length, this.#captures.length, failed];
   }
 
   #tell(): void {
-    const where = this.#inMemory
-      ? "This browser has no room for results, so they are in this page's memory until it is closed."
-      : "Results are kept on this device until this page is closed.";
-    this.#list.say(`${this.#words()}. ${where}`);
+    this.#list.say(texts.queue.sofar(...this.#counts, this.#term));
   }
 
   async #show(index: number): Promise<void> {
     this.#wanted = index;
-    this.#list.fail("");
+    this.#list.fail();
     try {
       const outcome = await this.#results.read(index);
       const capture = this.#captures[index];
       if (this.#wanted !== index || !capture) return;
       this.#shown = outcome;
       this.#list.mark(index);
-      this.#page.show(outcome, this.#captures, capture);
+      // After a reload those that are not finished have no photographs.
+      const some = this.#captures.filter(({ files }) => files.length > 0);
+      this.#page.show(outcome, some, capture);
     } catch (error) {
-      this.#list.fail(wordsOf(error));
+      this.#list.fail(error);
     }
   }
 
   /** One archive with a folder for each finished stack. */
   async #zip(): Promise<void> {
-    this.#list.fail("");
+    this.#list.fail();
     this.#list.packing = true;
     try {
       const { zipOfFolders } = await import("../out/zip.js");
       store("stacks.zip", await zipOfFolders(this.#folders()));
     } catch (error) {
-      this.#list.fail(wordsOf(error));
+      this.#list.fail(error);
     }
     this.#list.packing = false;
   }
 
   async *#folders(): AsyncGenerator<{ folder: string; files: readonly Kept[] }> {
     const names = new Set<string>();
-    for (const index of [...this.#done]) {
+    for (const index of this.#done) {
       const { name, estimate } = await this.#results.read(index);
       const plain = fileNameOf(name);
       const folder = names.has(plain) ? `${plain}-${index + 1}` : plain;
@@ -156,13 +210,18 @@ export class Queue {
 
   async #forget(): Promise<void> {
     this.#list.close();
-    [this.#captures, this.#done] = [[], []];
+    [this.#captures, this.#states] = [[], []];
+    this.#page.changed();
     await this.#results.clear();
   }
 }
 
-function doneWords({ estimate, size }: Done): string {
+function factsOf({ estimate, taken }: Done) {
   const { width, height, lights } = estimate;
-  const how = size && `, ${size}`;
-  return `${lights.length} photographs of ${width} × ${height} pixels${how}; ${total(estimate).toFixed(1)} s`;
+  return { photographs: lights.length, width, height, seconds: total(estimate), taken };
+}
+
+/** Whether nothing more comes of a stack. */
+function isOver({ kind }: State): boolean {
+  return kind !== "waiting" && kind !== "now";
 }

@@ -1,4 +1,5 @@
 import { byId, make, write } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { towards } from "../vector.js";
 import { FIRST, type Lamp, MOST_LAMPS } from "./shading.js";
 
@@ -104,14 +105,14 @@ export class Lamps {
       handle.style.left = `${50 + 50 * lamp.x}%`;
       handle.style.top = `${50 - 50 * lamp.y}%`;
       handle.setAttribute("aria-pressed", String(index === this.#chosen));
-      handle.setAttribute("aria-label", `Lamp ${index + 1}: ${directionWords(lamp)}`);
+      handle.setAttribute("aria-label", texts.relight.lamp(index + 1, directionWords(lamp)));
     }
     const { brightness } = this.#all[this.#chosen] ?? FIRST;
     this.#brightness.valueAsNumber = brightness;
-    write(this.#words, `${Math.round(100 * brightness)} %`);
+    write(this.#words, texts.relight.percent(brightness));
     this.#add.disabled = this.#all.length >= MOST_LAMPS;
     this.#remove.disabled = this.#all.length <= 1;
-    write(byId("lamp-words"), `Lamp ${this.#chosen + 1} of ${this.#all.length}`);
+    write(byId("lamp-words"), texts.relight.chosen(this.#chosen + 1, this.#all.length));
   }
 
   #handle(index: number): HTMLButtonElement {
@@ -134,8 +135,7 @@ export class Lamps {
 /** A direction as people say it. */
 export function directionWords({ x, y }: Pick<Lamp, "x" | "y">): string {
   const degrees = Math.round((Math.asin(Math.min(Math.hypot(x, y), 1)) * 180) / Math.PI);
-  if (degrees < 4) return "straight from the camera";
+  if (degrees < 4) return texts.directions.straight;
   const turn = Math.round(Math.atan2(y, x) / (Math.PI / 4) + 8) % 8;
-  const where = ["right", "upper right", "top", "upper left", "left", "lower left", "bottom", "lower right"];
-  return `${degrees}° from the camera, from the ${where[turn]}`;
+  return texts.directions.from(turn, degrees);
 }

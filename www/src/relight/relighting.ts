@@ -1,4 +1,5 @@
 import { byId } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { BLUE, type Channel, GREEN, type Picture, RED } from "../viewer/picture.js";
 import type { LampHook } from "../viewer/viewer.js";
 import { decode, encode } from "./encoding.js";
@@ -9,10 +10,10 @@ import { CLAY, type Lamp, type Look, PLAIN, Shader } from "./shading.js";
 
 /** The sliders, and how their values are said. */
 const SLIDERS = {
-  diffuse: (value: number) => `${Math.round(100 * value)} %`,
-  specular: (value: number) => `${Math.round(100 * value)} %`,
-  gloss: (value: number) => `${Math.round(100 * value)} %`,
-  detail: (value: number) => `${value.toFixed(1)} ×`,
+  diffuse: texts.relight.percent,
+  specular: texts.relight.percent,
+  gloss: texts.relight.percent,
+  detail: texts.relight.times,
 } as const;
 
 /** The object under lamps of one's own. */
@@ -65,10 +66,7 @@ export class Relighting implements LampHook {
     this.prepare();
     this.#gl?.begin();
     this.#take(this.#gl?.load(skin) ? this.#gl : new ProcessorPainter(skin, this.changed));
-    byId("relight-words").textContent =
-      this.#painter instanceof GlPainter
-        ? ""
-        : "This browser has no WebGL2 for a picture of this size: the processor paints, coarser while a lamp moves.";
+    byId("relight-words").textContent = this.#painter instanceof GlPainter ? "" : texts.relight.byProcessor;
   }
 
   get places(): readonly Lamp[] {
@@ -92,7 +90,9 @@ export class Relighting implements LampHook {
   get picture(): Picture {
     const skin = this.#skin;
     if (!skin) throw new Error("there is no result");
-    const channels = ["red", "green", "blue"].map((name, index) => this.#channel(skin, name, index));
+    const channels = [texts.viewer.red, texts.viewer.green, texts.viewer.blue].map((name, index) =>
+      this.#channel(skin, name, index),
+    );
     return {
       width: skin.width,
       height: skin.height,

@@ -1,5 +1,6 @@
 import type { Light } from "normalight";
-import { byId, make, say, wordsOf } from "../dom.js";
+import { byId, make, say, sayError } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import type { Distrust } from "./distrust.js";
 import type { Relighting } from "./relighting.js";
 import { EXPOSURE, type Lamp } from "./shading.js";
@@ -47,13 +48,13 @@ export class Replay {
     this.#distrust = distrust;
     this.#own = undefined;
     const options = lights.map(({ file }, index) => option(String(index), file));
-    this.#select.replaceChildren(option("", "none: lamps of your own"), ...options);
+    this.#select.replaceChildren(option("", texts.relight.noPhotograph), ...options);
     say(this.#words, "");
   }
 
   async #run(): Promise<void> {
     this.#playing = true;
-    this.#play.textContent = "Stop";
+    this.#play.textContent = texts.relight.stop;
     while (this.#playing) {
       await this.#next(1);
       await new Promise((resolve) => setTimeout(resolve, PACE));
@@ -63,7 +64,7 @@ export class Replay {
 
   #stop(): void {
     this.#playing = false;
-    this.#play.textContent = "Play";
+    this.#play.textContent = texts.relight.play;
   }
 
   async #step(by: number): Promise<void> {
@@ -97,13 +98,12 @@ export class Replay {
       // Another one was chosen meanwhile, or another result came.
       if (!compared || this.#select.value !== value || this.#distrust !== distrust) return;
       this.relighting.lamps.set([{ x, y, brightness: compared.brightness / EXPOSURE }]);
-      const percent = (100 * compared.mean).toFixed(1);
-      say(this.#words, `A matt surface differs from this photograph by ${percent} % of its brightness.`);
+      say(this.#words, texts.relight.difference(compared.mean));
       this.shown(index);
     } catch (error) {
       if (this.#distrust !== distrust) return;
       this.#stop();
-      say(this.#words, `This photograph cannot be shown: ${wordsOf(error)}`);
+      sayError(this.#words, error, texts.relight.failed);
     }
   }
 }

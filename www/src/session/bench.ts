@@ -1,5 +1,6 @@
 import type { FramedCrop } from "../crop/editor.js";
 import type { Hand } from "../lights/hand.js";
+import type { KeptQueue, Light } from "../queue/state.js";
 import type { Outcome } from "../result.js";
 import type { KeptSettings } from "../settings.js";
 
@@ -15,10 +16,12 @@ export interface Bench {
   readonly outcome: Outcome | undefined;
   /** The lights of that result, as people have set them. */
   readonly hand: Hand | undefined;
+  /** The finished results of several stacks. */
+  readonly queue: KeptQueue | undefined;
 }
 
 /** The parts of it that change by themselves. */
-export type Part = "stack" | "settings" | "outcome" | "hand";
+export type Part = "stack" | "settings" | "outcome" | "hand" | "queue";
 
 /** How the browser holds a stack. */
 export interface KeptStack extends Pick<Bench, "name" | "photographs" | "crop"> {
@@ -35,6 +38,18 @@ export interface KeptOutcome extends Pick<Outcome, "name" | "format" | "size" | 
   /** As those of the stack. */
   readonly files: readonly string[];
   /** As they were estimated. */
+  readonly used: readonly string[];
+}
+
+/** How the browser holds a queue: the names of its photographs in place of them. */
+export interface StoredQueue extends Omit<KeptQueue, "stacks"> {
+  readonly stacks: readonly (Omit<KeptQueue["stacks"][number], "result"> & {
+    readonly result: (Omit<Light, "files" | "used"> & StoredFiles) | undefined;
+  })[];
+}
+
+interface StoredFiles {
+  readonly files: readonly string[];
   readonly used: readonly string[];
 }
 

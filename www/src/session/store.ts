@@ -1,5 +1,6 @@
 // idb-keyval: IndexedDB's events as promises, in 600 bytes.
 import { clear, createStore, delMany, get, getMany, set } from "idb-keyval";
+import type { KeptQueue } from "../queue/state.js";
 
 /**
  * Where the session lies in this browser: IndexedDB, which takes files as they are and copies them off this thread. Handles to
@@ -16,7 +17,8 @@ export class SessionStore {
   readonly granted: Promise<void>;
   #owned = false;
 
-  constructor() {
+  /** @param cleared hears when nothing is kept any more */
+  constructor(private readonly cleared: () => void) {
     // Where there are no locks, which need a secure address, the last window wins.
     const { locks } = navigator;
     this.granted =
@@ -47,9 +49,15 @@ export class SessionStore {
     return delMany(names, stored);
   }
 
-  clear(): Promise<void> {
-    return clear(stored);
+  async clear(): Promise<void> {
+    await clear(stored);
+    this.cleared();
   }
+}
+
+/** The name of the results of a queue that the session keeps, whichever window has it. */
+export async function keptResults(): Promise<string | undefined> {
+  return (await get<Pick<KeptQueue, "name">>("queue", stored))?.name;
 }
 
 /** Holds the lock from when it is granted until the window ends. */

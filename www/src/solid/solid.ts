@@ -1,5 +1,6 @@
-import { byId, say, wordsOf } from "../dom.js";
+import { byId, say, sayError, wordsOf } from "../dom.js";
 import type { Lamp, Look } from "../relight/shading.js";
+import { texts } from "../texts/texts.js";
 import type { Relief } from "./grid.js";
 import { heightField, stepFor } from "./height_field.js";
 import type { SolidScene } from "./scene.js";
@@ -41,7 +42,7 @@ export class Solid {
     this.#stage.replaceChildren();
     this.#stage.hidden = true;
     byId("solid-keys").hidden = true;
-    this.#button.textContent = "Show";
+    this.#button.textContent = texts.solid.show;
     say(this.#words, "");
   }
 
@@ -55,13 +56,13 @@ export class Solid {
   async #open(): Promise<void> {
     this.#turn += 1;
     const turn = this.#turn;
-    say(this.#words, "Making the surface");
+    say(this.#words, texts.solid.making);
     this.#button.disabled = true;
     try {
       const [{ SolidScene }, relief] = await Promise.all([import("./scene.js"), this.relief()]);
       if (turn !== this.#turn) return;
       if (!relief) {
-        say(this.#words, "The surface could not be made; the reason stands below.");
+        say(this.#words, texts.solid.failed);
         return;
       }
       this.#stage.hidden = false;
@@ -69,12 +70,12 @@ export class Solid {
       this.#scene = new SolidScene(this.#canvas(), field);
       if (this.#look) this.#scene.light(this.#lamps, this.#look);
       byId("solid-keys").hidden = false;
-      this.#button.textContent = "Close";
+      this.#button.textContent = texts.solid.close;
       say(this.#words, "");
     } catch (error) {
       this.close();
-      const webgl = /webgl/i.test(wordsOf(error));
-      say(this.#words, webgl ? "This browser has no WebGL2, which the view in 3D needs." : wordsOf(error));
+      if (/webgl/i.test(wordsOf(error))) say(this.#words, texts.solid.noWebgl);
+      else sayError(this.#words, error);
     } finally {
       this.#button.disabled = false;
     }
@@ -86,8 +87,8 @@ export class Solid {
     canvas.id = "solid-canvas";
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "application");
-    canvas.setAttribute("aria-roledescription", "view in 3D");
-    canvas.setAttribute("aria-label", "The surface in 3D");
+    canvas.setAttribute("aria-roledescription", texts.solid.kind);
+    canvas.setAttribute("aria-label", texts.solid.surface);
     canvas.setAttribute("aria-describedby", "solid-keys");
     this.#stage.replaceChildren(canvas);
     return canvas;

@@ -1,4 +1,5 @@
-import { make, say, wordsOf } from "../dom.js";
+import { make, say, sayError } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import type { Picture } from "./picture.js";
 
 /** A map that can be chosen. */
@@ -77,7 +78,7 @@ export class Choice {
     }
     try {
       const coming = layer.load();
-      if (coming instanceof Promise) say(this.status, `Fetching ${layer.name}`);
+      if (coming instanceof Promise) say(this.status, texts.viewer.fetching(layer.name));
       const picture = coming instanceof Promise ? await coming : coming;
       // Another one was chosen meanwhile.
       if (this.#loading !== layer) return;
@@ -86,7 +87,7 @@ export class Choice {
     } catch (error) {
       if (this.#loading !== layer) return;
       this.picture = undefined;
-      say(this.status, `${layer.name} cannot be shown: ${wordsOf(error)}`);
+      sayError(this.status, error, (why) => texts.viewer.failed(layer.name, why));
     }
     this.changed();
   }

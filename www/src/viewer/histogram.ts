@@ -1,4 +1,8 @@
 import { context } from "../dom.js";
+import { texts } from "../texts/texts.js";
+
+export { short } from "../texts/numbers.js";
+
 import type { Channel, Picture } from "./picture.js";
 
 /** Pixels that are counted at most: enough for the shape of a histogram, and quick at any size. */
@@ -42,16 +46,8 @@ export function spreadOf(
 }
 
 /** The spread of a channel in words. */
-export function spreadWords(name: string, { count, mean, lowest, highest }: Spread): string {
-  if (count === 0) return `${name}: no pixels`;
-  return `${name} ${short(lowest)} to ${short(highest)}, mean ${short(mean)}`;
-}
-
-/** A number in few digits. */
-export function short(value: number): string {
-  if (Number.isInteger(value)) return String(value).replace("-", "−");
-  const digits = Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2;
-  return value.toFixed(digits).replace("-", "−");
+export function spreadWords(name: string, spread: Spread): string {
+  return texts.viewer.spread(name, spread);
 }
 
 /** Draws the histogram of a picture, and says it in words. */

@@ -1,4 +1,5 @@
 import { context, paint } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import type { Place, Size } from "./view.js";
 
 /** One of the numbers that a map holds at every pixel. */
@@ -66,7 +67,11 @@ export function codes(rgba: Uint8Array): readonly Channel[] {
     colour,
     at: (pixel) => (rgba[4 * pixel + 3] === 0 ? Number.NaN : (rgba[4 * pixel + index] ?? Number.NaN)),
   });
-  return [channel("red", RED, 0), channel("green", GREEN, 1), channel("blue", BLUE, 2)];
+  return [
+    channel(texts.viewer.red, RED, 0),
+    channel(texts.viewer.green, GREEN, 1),
+    channel(texts.viewer.blue, BLUE, 2),
+  ];
 }
 
 export const RED = "#ff6b7a";

@@ -1,4 +1,5 @@
-import { short } from "./histogram.js";
+import { fixed } from "../texts/numbers.js";
+import { texts } from "../texts/texts.js";
 
 /** The angle between a normal and the direction to the camera, in degrees. */
 export function tilt(z: number): number {
@@ -7,7 +8,7 @@ export function tilt(z: number): number {
 
 /** A component of a direction. */
 export function component(value: number): string {
-  return `${value < 0 ? "−" : " "}${Math.abs(value).toFixed(3)}`;
+  return `${value < 0 ? "−" : " "}${fixed(Math.abs(value), 3)}`;
 }
 
 /** A colour as codes, and as it is written on the web. */
@@ -32,18 +33,19 @@ export interface Known {
 export function readout(known: Known, column: number, row: number): [string, string][] {
   const { width, height, normals, albedo, depth } = known;
   if (column < 0 || row < 0 || column >= width || row >= height) return [];
-  const place: [string, string] = ["pixel", `${column}, ${row}`];
+  const place: [string, string] = [texts.viewer.pixel, `${column}, ${row}`];
   const pixel = row * width + column;
   const [x = 0, y = 0, z = 0] = normals.subarray(3 * pixel, 3 * pixel + 3);
-  if (x === 0 && y === 0 && z === 0) return [place, ["", "outside the object"]];
+  if (x === 0 && y === 0 && z === 0) return [place, ["", texts.viewer.outside]];
   const [red = 0, green = 0, blue = 0] = albedo.subarray(3 * pixel, 3 * pixel + 3);
   const words: [string, string][] = [
     place,
-    ["normal", [x, y, z].map(component).join(" ")],
-    ["tilt", `${tilt(z).toFixed(1)}°`],
-    ["albedo", [red, green, blue].map((value) => value.toFixed(3)).join(" ")],
+    [texts.viewer.normal, [x, y, z].map(component).join(" ")],
+    [texts.viewer.tilt, texts.viewer.degrees(tilt(z))],
+    [texts.viewer.albedo, [red, green, blue].map((value) => fixed(value, 3)).join(" ")],
   ];
   const height_ = depth?.[pixel];
-  if (height_ !== undefined && !Number.isNaN(height_)) words.push(["depth", `${short(height_)} px`]);
+  if (height_ !== undefined && !Number.isNaN(height_))
+    words.push([texts.viewer.depth, texts.viewer.pixels(height_)]);
   return words;
 }

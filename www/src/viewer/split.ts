@@ -1,3 +1,5 @@
+import { texts } from "../texts/texts.js";
+
 /** Shares of the width that one press of a key moves the divider. */
 const STEP = 0.02;
 
@@ -38,7 +40,7 @@ export class Split {
   /** Shows it between two maps, or hides it. */
   show(shown: boolean, left: string, right: string): void {
     this.handle.hidden = !shown;
-    this.handle.setAttribute("aria-label", `Divider between ${left} and ${right}`);
+    this.handle.setAttribute("aria-label", texts.viewer.divider(left, right));
     this.#say();
   }
 
@@ -51,7 +53,7 @@ export class Split {
   #say(): void {
     const percent = Math.round(100 * this.at);
     this.handle.setAttribute("aria-valuenow", String(percent));
-    this.handle.setAttribute("aria-valuetext", `${percent} % of the width`);
+    this.handle.setAttribute("aria-valuetext", texts.viewer.dividerAt(percent));
     this.handle.style.left = `${100 * this.at}%`;
   }
 }

@@ -1,4 +1,5 @@
 import { byId, make, write } from "../dom.js";
+import { texts } from "../texts/texts.js";
 import { Choice, type Layer } from "./choice.js";
 import { type Asked, listen, STEP } from "./gestures.js";
 import { drawHistogram } from "./histogram.js";
@@ -31,7 +32,9 @@ export class Viewer {
   readonly #percent = byId("viewer-percent");
   readonly #lampSwitch = byId<HTMLButtonElement>("viewer-lamp");
   readonly #main = new Choice(byId("viewer-map"), byId("viewer-status"), undefined, () => this.#changed());
-  readonly #other = new Choice(byId("viewer-other"), byId("viewer-status"), "nothing", () => this.#changed());
+  readonly #other = new Choice(byId("viewer-other"), byId("viewer-status"), texts.viewer.nothing, () =>
+    this.#changed(),
+  );
   readonly #split = new Split(byId("viewer-split"), () => this.refresh());
   #frame: Size = { width: 1, height: 1 };
   #size: Size = { width: 0, height: 0 };
@@ -53,7 +56,7 @@ export class Viewer {
     full.hidden = !document.fullscreenEnabled;
     full.addEventListener("click", fullScreen);
     document.addEventListener("fullscreenchange", () => {
-      full.textContent = document.fullscreenElement ? "Leave full screen" : "Full screen";
+      full.textContent = document.fullscreenElement ? texts.viewer.leaveFullScreen : texts.viewer.fullScreen;
     });
     this.#lampSwitch.addEventListener("click", () => {
       this.#lampSwitch.setAttribute("aria-pressed", String(!this.#movesLamp));
@@ -110,10 +113,8 @@ export class Viewer {
   #changed(): void {
     this.#lampSwitch.hidden = !this.#relit;
     this.#split.show(this.#other.picture !== undefined, this.#main.name, this.#other.name);
-    const names = this.#other.picture
-      ? `${this.#main.name} and ${this.#other.name}, side by side`
-      : this.#main.name;
-    this.#canvas.setAttribute("aria-label", `${names}.`);
+    const other = this.#other.picture ? this.#other.name : undefined;
+    this.#canvas.setAttribute("aria-label", texts.viewer.shown(this.#main.name, other));
     this.refresh();
   }
 
@@ -139,7 +140,7 @@ export class Viewer {
     this.#part(drawing, this.#other, middle, this.#size.width, place);
     if (this.#movesLamp) for (const { x, y } of this.lamp.places) glow(drawing, this.#size, x, y);
     if (this.#canvas.matches(":focus-visible")) crosshair(drawing, this.#size);
-    write(this.#percent, `${Math.round(100 * this.#view.scale)} %`);
+    write(this.#percent, texts.viewer.scale(Math.round(100 * this.#view.scale)));
     // Where the whole is seen, a finger scrolls the page.
     const scrolls = !this.#movesLamp && isFit(this.#view, this.#frame, this.#size);
     this.#canvas.dataset.drag = this.#movesLamp ? "lamp" : scrolls ? "page" : "picture";
@@ -170,7 +171,7 @@ export class Viewer {
     const keys = this.#canvas.matches(":focus-visible");
     const at = this.#pointer ?? (keys ? [this.#size.width / 2, this.#size.height / 2] : undefined);
     const pairs = at && this.#known ? this.#wordsAt(...(at as [number, number]), this.#known) : [];
-    const nothing: [string, string][] = [["", "Point at the picture to read its values."]];
+    const nothing: [string, string][] = [["", texts.viewer.point]];
     const shown = pairs.length > 0 ? pairs : nothing;
     // In place: this follows every move of the pointer.
     while (this.#values.children.length > shown.length) this.#values.lastElementChild?.remove();
@@ -178,7 +179,7 @@ export class Viewer {
       this.#values.append(make("div", "", make("dt"), make("dd")));
     for (const [index, row] of [...this.#values.children].entries()) {
       const [name, words] = shown[index] ?? ["", ""];
-      write(row.firstElementChild as HTMLElement, name || "values");
+      write(row.firstElementChild as HTMLElement, name || texts.viewer.values);
       write(row.lastElementChild as HTMLElement, words);
     }
     this.#values.classList.toggle("none", pairs.length === 0);
@@ -202,7 +203,7 @@ export class Viewer {
     const { picture } = this.#main;
     const words = picture ? drawHistogram(this.#histogram, picture) : "";
     this.#spread.textContent = words;
-    this.#histogram.setAttribute("aria-label", `Histogram of ${this.#main.name}`);
+    this.#histogram.setAttribute("aria-label", texts.viewer.histogram(this.#main.name));
   }
 
   #asked(): Asked {

@@ -63,10 +63,10 @@ export class Page {
 
   /**
    * Opens the built page: from a server of its own, or at an address.
-   * @param {{ webgpu: boolean, offline?: boolean, address?: string, args?: string[] }} options
+   * @param {{ webgpu: boolean, offline?: boolean, address?: string, args?: string[], locale?: string }} options
    * `offline`: with its service worker, which answers before a test's routes do
    */
-  static async open({ webgpu, offline = false, address, args = [] }) {
+  static async open({ webgpu, offline = false, address, args = [], locale = "en-US" }) {
     const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
     assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
     const server = address === undefined ? await serveBuild() : undefined;
@@ -75,6 +75,7 @@ export class Page {
     const context = await browser.newContext({
       viewport: { width: 1280, height: 900 },
       serviceWorkers: offline ? "allow" : "block",
+      locale,
     });
     const page = await context.newPage();
     const close = async () => {

@@ -147,7 +147,7 @@
       paint();
     },
     () => {
-      get("problem").textContent = "This browser cannot read the pictures in this file.";
+      get("problem").textContent = data.unreadable;
     },
   );
 })();

@@ -1,0 +1,3 @@
+export const cropPage = {
+  remove: "Take the whole frame",
+};

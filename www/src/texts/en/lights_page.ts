@@ -1,0 +1,17 @@
+export const lightsPage = {
+  title: "Lights",
+  estimate: "Estimate",
+  rig: "Rig",
+  rigWhat: "Lights of a result that were kept for the next object",
+  file: "Light file",
+  rigName: "Name of the chosen rig",
+  rigDelete: "Delete",
+  mapWhat: "seen from the camera; colour is intensity, size is confidence; drag to correct",
+  table: "Every light",
+  photograph: "Photograph",
+  x: "x",
+  y: "y",
+  z: "z",
+  intensity: "Intensity",
+  confidence: "Confidence",
+};

@@ -1,0 +1,5 @@
+export const queuePage = {
+  title: "Stacks",
+  zip: "All as one ZIP",
+  forget: "Forget these",
+};

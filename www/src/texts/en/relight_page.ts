@@ -1,0 +1,21 @@
+export const relightPage = {
+  title: "Relighting",
+  reset: "Reset the surface",
+  lamps: "Directions of the lamps, seen from the camera",
+  diffuse: "Diffuse",
+  specular: "Specular",
+  gloss: "Gloss",
+  detail: "Detail",
+  detailWhat: "How many times the slopes of the surface are exaggerated",
+  lamp: "Lamp",
+  add: "Add a lamp",
+  remove: "Remove it",
+  albedo: "albedo",
+  hollow: "hollow in place of bulging",
+  replay: "Beside the photographs",
+  replayWhat:
+    "Relights the object as each photograph was lit, and shows both. Where they differ much, shadows, gloss or wrong normals are the reason: the map “Where to distrust” collects that of all photographs.",
+  lightOf: "Light of",
+  previous: "Previous",
+  next: "Next",
+};
