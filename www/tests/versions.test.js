@@ -6,7 +6,9 @@ import puppeteer from "puppeteer-core";
 import { Host } from "./support/host.js";
 import { QUIET } from "./support/page.js";
 
-const STACK = ["001", "005", "009"].map((name) => `${import.meta.dirname}/../public/samples/statue/${name}.png`);
+const STACK = ["001", "005", "009"].map(
+  (name) => `${import.meta.dirname}/../public/samples/statue/${name}.png`,
+);
 
 /** @type {Host} */
 let host;
@@ -75,7 +77,9 @@ test("a new version is told of while nothing is lost, and replaces the one befor
   assert.equal(await tab.title(), "Normalight");
 
   // Photographs on the bench would be lost.
-  const input = /** @type {import("puppeteer-core").ElementHandle<HTMLInputElement>} */ (await tab.$("#files"));
+  const input = /** @type {import("puppeteer-core").ElementHandle<HTMLInputElement>} */ (
+    await tab.$("#files")
+  );
   await input.uploadFile(...STACK);
   await tab.waitForSelector("#version", { hidden: true });
   await tab.waitForSelector("#clear", { visible: true });

@@ -1,3 +1,4 @@
+import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { fileURLToPath } from "node:url";
@@ -55,7 +56,8 @@ export class Host {
     const [page, worker] = await Promise.all(
       ["index.html", "service-worker.js"].map((name) => readFile(BUILD + name, "utf8")),
     );
-    const next = (page ?? "").replace("<title>Normalight</title>", `<title>${title}</title>`);
+    const next = (page ?? "").replace(">Normalight</title>", `>${title}</title>`);
+    assert.notEqual(next, page, "the page has another title");
     this.files.set("index.html", next);
     this.files.set("service-worker.js", (worker ?? "").replace(await hash(page ?? ""), await hash(next)));
   }
