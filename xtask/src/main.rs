@@ -3,6 +3,7 @@
 //! `cargo xtask demo` builds everything and serves the page; `cargo xtask test` runs every test.
 //! Both fetch what is missing first, and name the exact command where they may not install.
 
+mod bench;
 mod engine;
 mod fresh;
 mod fuzz;
@@ -58,6 +59,11 @@ enum Task {
         #[arg(long, value_name = "STEP")]
         skip: Vec<Step>,
     },
+    /// Measure the speed of what runs in a browser, see docs/speed.md.
+    Bench {
+        #[command(subcommand)]
+        what: bench::Bench,
+    },
     /// Run every fuzz target for some time, see fuzz/README.md.
     Fuzz {
         /// Seconds for each target.
@@ -102,6 +108,7 @@ fn perform(arguments: Arguments) -> Result<()> {
         Task::Test { only, skip } => {
             steps::run(&workspace, &steps::chosen(&only, &skip), installing)
         }
+        Task::Bench { what } => bench::run(&workspace, &what, installing),
         Task::Fuzz { seconds, only } => fuzz::run(&workspace, seconds, &only, installing),
         Task::Slurm => engine::slurm(&workspace, installing),
         Task::Wasm => {

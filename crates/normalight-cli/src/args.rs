@@ -4,6 +4,7 @@ mod batch;
 mod bench;
 mod estimate;
 mod evaluate;
+mod export;
 mod render;
 mod search;
 mod surface;
@@ -17,6 +18,7 @@ pub(crate) use bench::{
 };
 pub(crate) use estimate::{EstimateArgs, EstimationArgs};
 pub(crate) use evaluate::EvaluateArgs;
+pub(crate) use export::{ExportArgs, ExportFormat, OnnxArgs};
 pub(crate) use render::{LibraryArgs, RenderArgs};
 pub(crate) use search::{CompareArgs, DeriveArgs, SearchArgs, SearchCommand, SearchCommands};
 pub(crate) use surface::{MeshArgs, SurfaceArgs};
@@ -55,6 +57,8 @@ pub(crate) enum Command {
     Average(AverageArgs),
     /// Search for the cells of one of the two networks, and compare what was found.
     Search(SearchCommands),
+    /// Write a network for other programs.
+    Export(ExportArgs),
     /// Draw synthetic stacks with known lights and normals.
     Render(RenderArgs),
     /// Measure the speed of parts of the program on this machine.

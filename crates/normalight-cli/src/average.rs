@@ -1,10 +1,10 @@
 //! `normalight average`.
 use crate::args::AverageArgs;
+use crate::output_file::place;
 use crate::search::named;
 use crate::terminal::{note, print};
 use crate::{Outcome, device};
-use anyhow::{Context, Result};
-use normalight_io::OutputFolder;
+use anyhow::Result;
 use normalight_model::Weights;
 use normalight_train::{TrainRecipe, read_weights, validated};
 use serde::Serialize;
@@ -70,14 +70,6 @@ pub(crate) fn run(args: &AverageArgs) -> Result<Outcome> {
         }
     }
     Ok(Outcome::Done)
-}
-
-/// Folder and name of a file to be written; tried out before the work that leads to it.
-fn place(file: &Path) -> Result<(OutputFolder, &str)> {
-    let name = file.file_name().and_then(|name| name.to_str());
-    let name = name.with_context(|| format!("{}: no name of a file", file.display()))?;
-    let folder = OutputFolder::prepare(file.parent().unwrap_or(Path::new("")))?;
-    Ok((folder, name))
 }
 
 fn measured(

@@ -10,9 +10,11 @@ mod display;
 mod estimate;
 mod evaluate;
 mod exit;
+mod export;
 mod interrupt;
 mod mesh;
 mod monitor;
+mod output_file;
 mod outputs;
 mod progress;
 mod render;
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(args),
         Command::Train(args) => train::run(args),
         Command::Average(args) => average::run(args),
+        Command::Export(args) => export::run(args),
         Command::Search(args) => search::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Render(args) => render::run(args),

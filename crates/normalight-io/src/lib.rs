@@ -97,7 +97,9 @@ pub use limits::{
     Limits, MAX_ARCHIVE_BYTES, MAX_ARCHIVE_FILES, MAX_ARCHIVE_RATIO, MAX_FILE_BYTES, MAX_FILES,
     MAX_MESH_BYTES, MAX_PIXELS, MAX_STACK_BYTES, MAX_TEXT_BYTES,
 };
-pub use maps::{NormalFormat, albedo_png, mask_png, normal_errors_png, normals_npy, normals_png};
+pub use maps::{
+    NormalFormat, albedo_png, mask_png, normal_errors_png, normals_npy, normals_png, npy,
+};
 pub use mask_file::decode_mask;
 pub use mesh::read_mesh;
 pub use mesh_files::{MeshFileFormat, Texture, mesh_as_files};

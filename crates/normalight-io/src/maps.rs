@@ -78,8 +78,11 @@ pub fn normals_npy(map: &NormalMap) -> Result<Vec<u8>, IoError> {
     npy("normal map", &shape, values)
 }
 
-/// Numbers as NumPy array of float32.
-pub(crate) fn npy(
+/// Numbers as NumPy array of float32; `name` is what an error calls them.
+///
+/// # Errors
+/// [`IoError::Encode`], also for more or fewer numbers than the shape has.
+pub fn npy(
     name: &'static str,
     shape: &[u64],
     values: impl Iterator<Item = f32>,

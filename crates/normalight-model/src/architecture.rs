@@ -169,7 +169,7 @@ fn two() -> usize {
 
 impl CellNormal {
     /// How often the size must double between the feature cells and the maximum over the images: 0 to 2.
-    pub(crate) fn doublings(&self) -> usize {
+    pub fn doublings(&self) -> usize {
         let halvings = self.reductions + usize::from(self.stem_strides[1] == 2);
         halvings.saturating_sub(1)
     }

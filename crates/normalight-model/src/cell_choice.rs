@@ -37,7 +37,7 @@ impl<G> CellChoice<G> {
     ///
     /// # Errors
     /// [`ModelError::Architecture`] when they are open.
-    pub(crate) fn required(&self) -> Result<&G, ModelError> {
+    pub fn required(&self) -> Result<&G, ModelError> {
         self.chosen().ok_or_else(|| ModelError::Architecture {
             what: "genotype".into(),
             found: "none".into(),

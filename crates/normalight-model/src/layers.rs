@@ -7,7 +7,7 @@ use burn::tensor::{Device, Tensor, activation};
 use normalight_kernels::{BatchMoments, Convolution, batch_norm, scale_channels};
 
 /// Slope of the leaky ReLU of all plain layers.
-pub(crate) const LEAK: f32 = 0.1;
+pub const LEAK: f32 = 0.1;
 
 /// A convolution with bias, "same" padding and a stride, no activation.
 pub(crate) fn convolution(

@@ -78,6 +78,7 @@ pub use error::ModelError;
 pub use estimator::{EstimateInput, Estimator};
 pub use genotype::{Cell, Edge, Genotypes, LightGenotype, NormalGenotype, Operation};
 pub use input::{LightInput, NormalInput};
+pub use layers::LEAK;
 pub use light_network::LightNetwork;
 pub use light_stage::LightOptions;
 pub use light_view::LightView;

@@ -1,9 +1,6 @@
 use crate::LightInput;
 use normalight_core::{ImageStack, Mask, Rect};
 
-/// Margin around the object in its square view, as a share of the view's side.
-const MARGIN: f32 = 0.04;
-
 /// The small square view of the masked object that the light network looks at: the object's
 /// bounding box, centred, its aspect kept, area-averaged; encoded as [`LightInput`] says.
 #[derive(Debug, Clone)]
@@ -29,11 +26,14 @@ struct Span {
 }
 
 impl LightView {
+    /// Margin around the object, as a share of the view's side.
+    pub const MARGIN: f32 = 0.04;
+
     /// Prepares the view of a stack. The mask must not be empty.
     pub fn new(stack: &ImageStack, mask: &Mask, size: usize) -> Self {
         let whole = Rect::whole(mask.width(), mask.height());
         let rect = mask.bounding_box().unwrap_or(whole);
-        let side = rect.width.max(rect.height) as f32 / (1.0 - 2.0 * MARGIN);
+        let side = rect.width.max(rect.height) as f32 / (1.0 - 2.0 * Self::MARGIN);
         let spans = |length: usize| {
             let start = (length as f32 - side) / 2.0;
             (0..size)
@@ -187,7 +187,7 @@ mod tests {
             view.image(&stack, 2, false, &mut out);
             let covered: f32 = out.chunks_exact(4).map(|pixel| pixel[3]).sum();
             let aspect = width.min(height) as f32 / width.max(height) as f32;
-            let expected = (32.0 * (1.0 - 2.0 * MARGIN)).powi(2) * aspect;
+            let expected = (32.0 * (1.0 - 2.0 * LightView::MARGIN)).powi(2) * aspect;
             assert!(
                 (covered / expected - 1.0).abs() < 0.25,
                 "{covered} {expected}"

@@ -102,6 +102,27 @@ impl Weights {
         &self.hash
     }
 
+    /// Shape and values of a tensor by its path in the network.
+    ///
+    /// # Errors
+    /// [`ModelError::Tensor`] where there is none.
+    pub fn tensor(&self, path: &str) -> Result<(&[usize], &[f32]), ModelError> {
+        match self.tensors.get(path) {
+            Some((shape, values)) => Ok((shape, values)),
+            None => Err(ModelError::Tensor {
+                name: self.name.clone(),
+                tensor: path.to_owned(),
+                found: "nothing".into(),
+                expected: "a tensor".into(),
+            }),
+        }
+    }
+
+    /// Number of tensors.
+    pub fn tensor_count(&self) -> usize {
+        self.tensors.len()
+    }
+
     /// Builds the light network on a device.
     ///
     /// # Errors
