@@ -1,7 +1,7 @@
 import type { ColorMode, Notice, Plan } from "normalight";
 import { asAmbient } from "./ambient.js";
 import { FEWEST } from "./captures.js";
-import { byId, make, paint, sayError, sayLines } from "./dom.js";
+import { byId, english, make, paint, sayError, sayLines, wordsOf } from "./dom.js";
 import type { Engine } from "./engine.js";
 import { withoutExtension } from "./large/shrink.js";
 import { noticesByFile } from "./notices_by_file.js";
@@ -295,7 +295,7 @@ export class Stack {
     const bad = shown.flatMap(({ problem }) => problem ?? []);
     this.#problems.hidden = bad.length === 0 && !this.#problem;
     if (this.#problem) sayError(this.#problems, this.#problem);
-    else this.#problems.replaceChildren(...bad.map(paragraphAbout));
+    else this.#problems.replaceChildren(...paragraphsAbout(bad));
   }
 
   #words(): string {
@@ -312,10 +312,11 @@ export class Stack {
   }
 }
 
-function paragraphAbout(error: unknown): HTMLElement {
-  const paragraph = make("p");
-  sayError(paragraph, error);
-  return paragraph;
+/** What is wrong with single files, in the estimator's words: what kind of failure it is is said once. */
+function paragraphsAbout(errors: readonly unknown[]): HTMLElement[] {
+  const before = errors.length > 0 && texts.errors.before?.input;
+  const each = errors.map((error) => make("p", "", english(wordsOf(error))));
+  return before ? [make("p", "", `${before}:`), ...each] : each;
 }
 
 /** Whether a file is a TIFF or BigTIFF, which may hold several pictures. */
