@@ -81,9 +81,9 @@ export class Results {
 
   /** Gives all of them up. */
   async clear(): Promise<void> {
-    const names = [...this.#held.keys()].map((index) => this.#key(index));
     this.#held.clear();
-    await delMany(names, stored).catch(() => undefined);
+    // Those, too, that were written last before the page was closed, of which the session knows nothing.
+    await remove((name) => name === this.#name).catch(() => undefined);
   }
 
   /** Deletes what other windows left that are gone, unless the session keeps it. */
@@ -91,8 +91,7 @@ export class Results {
     const kept = await keptResults();
     const { held = [] } = (await navigator.locks?.query()) ?? {};
     const alive = new Set([LOCK + this.#name, LOCK + kept, ...held.map(({ name }) => name)]);
-    const names = (await keys<string>(stored)).filter((name) => !alive.has(LOCK + name.split(" ")[0]));
-    if (names.length > 0) await delMany(names, stored);
+    await remove((name) => !alive.has(LOCK + name));
   }
 
   #key(index: number): string {
@@ -102,4 +101,10 @@ export class Results {
   #lock(): void {
     navigator.locks?.request(LOCK + this.#name, () => new Promise<void>(() => undefined));
   }
+}
+
+/** Deletes the results of queues with such names. */
+async function remove(which: (name: string) => boolean): Promise<void> {
+  const gone = (await keys<string>(stored)).filter((key) => which(key.split(" ")[0] ?? ""));
+  if (gone.length > 0) await delMany(gone, stored);
 }

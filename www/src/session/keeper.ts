@@ -102,7 +102,7 @@ export class SessionKeeper {
       this.#shown = undefined;
       this.#time = Date.now();
       this.tell("");
-      if (files.length > 0 && queue) {
+      if (files.length > 0 && queue && this.#queue.length > 0) {
         await this.store.delete("stack", "settings", "outcome", "hand");
         await this.#deleteOthers();
       } else await this.#clear();

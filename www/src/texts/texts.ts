@@ -4,7 +4,7 @@ import { type Language, language } from "./language.js";
 /** What every language has: a room of the page each, words or functions that make words. */
 export type Texts = typeof en;
 
-/** English comes with the page, the others when they are wanted. */
+/** English comes with the page, the others when they are wanted; they import nothing that imports this, which waits for them. */
 const OTHERS: Record<Exclude<Language, "en">, () => Promise<Texts>> = {
   de: async () => (await import("./de/index.js")).de,
 };
