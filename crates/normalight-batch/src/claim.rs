@@ -63,7 +63,7 @@ impl Claim {
                 }
                 Err(reason) => return Err(failed(&lock)(reason)),
             };
-            match held(&file).map_err(failed(&lock))? {
+            match held(&file, PATIENCE).map_err(failed(&lock))? {
                 Held::Yes => {
                     return Err(BatchError::AtWork {
                         path: output.to_owned(),
@@ -108,9 +108,12 @@ impl Claim {
                 continue;
             };
             let path = self.base.join(name + LOCK);
+            // Those of this division may be at work: nobody waits for each of them.
+            let is_refused = shard.of() != self.shard.of();
+            let patience = if is_refused { PATIENCE } else { Duration::ZERO };
             match File::open(&path) {
-                Ok(file) => match held(&file) {
-                    Ok(Held::Yes) if shard.of() != self.shard.of() => {
+                Ok(file) => match held(&file, patience) {
+                    Ok(Held::Yes) if is_refused => {
                         return Err(BatchError::OtherDivision {
                             path: output.to_owned(),
                             found: shard.of(),
@@ -165,13 +168,13 @@ fn names(base: &Path) -> Vec<String> {
 /// Tries to lock a file.
 ///
 /// A batch that was killed while it started a job leaves its lock to that job until the program of the job is loaded, so a lock
-/// counts as held only after [`PATIENCE`].
-fn held(file: &File) -> io::Result<Held> {
+/// that ends this batch counts as held only after [`PATIENCE`].
+fn held(file: &File, patience: Duration) -> io::Result<Held> {
     let start = Instant::now();
     loop {
         match file.try_lock() {
             Ok(()) => return Ok(Held::No),
-            Err(TryLockError::WouldBlock) if start.elapsed() < PATIENCE => thread::sleep(LOOK),
+            Err(TryLockError::WouldBlock) if start.elapsed() < patience => thread::sleep(LOOK),
             Err(TryLockError::WouldBlock) => return Ok(Held::Yes),
             // Some network drives know no locks.
             Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {

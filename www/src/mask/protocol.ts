@@ -1,3 +1,5 @@
+import type { Frame } from "../crop/rectangle.js";
+
 /** A photograph as the editor shows it. */
 export interface Picture {
   readonly width: number;
@@ -35,12 +37,6 @@ export interface MaskTasks {
 }
 
 export type MaskTask = keyof MaskTasks;
-
-/** A size in pixels. */
-interface Frame {
-  readonly width: number;
-  readonly height: number;
-}
 
 /** What went wrong in the worker: the page has words for it, or they are the browser's. */
 export type Problem =
