@@ -58,7 +58,12 @@ export class Page {
       if (["error", "warning"].includes(message.type())) this.#complaints.push(message.text());
     });
     page.on("pageerror", (error) => this.#complaints.push(String(error)));
-    page.on("requestfailed", (request) => this.#complaints.push(`${request.url()} failed`));
+    page.on("requestfailed", (request) => {
+      const why = request.failure()?.errorText;
+      // What a page was still fetching when it was left or loaded anew.
+      if (why === "net::ERR_ABORTED") return;
+      this.#complaints.push(`${request.url()} failed: ${why}`);
+    });
   }
 
   /**
