@@ -1,12 +1,13 @@
 mod average;
+mod encode;
 
-use crate::header::sorted;
 use crate::{
     Architecture, LightArchitecture, LightNetwork, LoadedLightNetwork, LoadedNetwork,
     LoadedNormalNetwork, ModelError, NormalArchitecture, NormalNetwork,
 };
-use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
+use burn::module::{Module, ModuleMapper, Param};
 use burn::tensor::{Device, Tensor, TensorData};
+use encode::encode;
 use half::f16;
 use safetensors::tensor::TensorView;
 use safetensors::{Dtype, SafeTensors};
@@ -118,9 +119,21 @@ impl Weights {
         }
     }
 
-    /// Number of tensors.
-    pub fn tensor_count(&self) -> usize {
-        self.tensors.len()
+    /// Nothing, where a network has taken all tensors.
+    ///
+    /// # Errors
+    /// [`ModelError::Tensor`] where the file holds more or fewer than were `used`.
+    pub fn expect_all_used(&self, used: usize) -> Result<(), ModelError> {
+        let found = self.tensors.len();
+        if found == used {
+            return Ok(());
+        }
+        Err(ModelError::Tensor {
+            name: self.name.clone(),
+            tensor: "all".into(),
+            found: format!("{found} tensors"),
+            expected: format!("{used} tensors"),
+        })
     }
 
     /// Builds the light network on a device.
@@ -208,14 +221,7 @@ impl Weights {
         if let Some(error) = loader.error {
             return Err(error);
         }
-        if loader.used != self.tensors.len() {
-            return Err(ModelError::Tensor {
-                name: self.name.clone(),
-                tensor: "all".into(),
-                found: format!("{} tensors", self.tensors.len()),
-                expected: format!("{} tensors", loader.used),
-            });
-        }
+        self.expect_all_used(loader.used)?;
         Ok(network)
     }
 }
@@ -258,83 +264,6 @@ impl ModuleMapper for Loader<'_> {
             }
         }
     }
-}
-
-#[derive(Default)]
-struct Collector {
-    path: Vec<String>,
-    tensors: HalfTensors,
-    error: Option<String>,
-}
-
-impl ModuleVisitor for Collector {
-    fn enter_module(&mut self, name: &str, _container: &str) {
-        self.path.push(name.to_owned());
-    }
-
-    fn exit_module(&mut self, _name: &str, _container: &str) {
-        self.path.pop();
-    }
-
-    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        let tensor = param.val();
-        let shape: Vec<usize> = tensor.dims().to_vec();
-        match tensor.into_data().try_to_vec::<f32>() {
-            Ok(values) => {
-                let bytes = half(values.into_iter());
-                self.tensors.insert(self.path.join("."), (shape, bytes));
-            }
-            Err(error) => self.error = Some(format!("{error:?}")),
-        }
-    }
-}
-
-fn encode<M: Module>(
-    architecture: &Architecture,
-    network: &M,
-    notes: &BTreeMap<String, String>,
-) -> Result<Vec<u8>, ModelError> {
-    let mut collector = Collector::default();
-    network.visit(&mut collector);
-    if let Some(error) = collector.error {
-        return Err(ModelError::Device(error));
-    }
-    file_of(architecture, &collector.tensors, notes)
-}
-
-/// Shape and bytes of each tensor, in half precision, by name.
-type HalfTensors = BTreeMap<String, (Vec<usize>, Vec<u8>)>;
-
-fn file_of(
-    architecture: &Architecture,
-    tensors: &HalfTensors,
-    notes: &BTreeMap<String, String>,
-) -> Result<Vec<u8>, ModelError> {
-    let json = serde_json::to_string(architecture).map_err(|reason| ModelError::Json {
-        name: "architecture".into(),
-        reason,
-    })?;
-    let mut metadata: HashMap<String, String> = notes.clone().into_iter().collect();
-    metadata.insert("format".into(), "normalight".into());
-    metadata.insert("version".into(), FORMAT_VERSION.into());
-    metadata.insert("architecture".into(), json);
-    let views = tensors
-        .iter()
-        .map(|(path, (shape, bytes))| {
-            let view = TensorView::new(Dtype::F16, shape.clone(), bytes)
-                .map_err(|error| ModelError::Device(error.to_string()))?;
-            Ok((path.as_str(), view))
-        })
-        .collect::<Result<Vec<_>, ModelError>>()?;
-    safetensors::serialize(views, Some(metadata))
-        .map(sorted)
-        .map_err(|error| ModelError::Device(error.to_string()))
-}
-
-fn half(values: impl Iterator<Item = f32>) -> Vec<u8> {
-    values
-        .flat_map(|value| f16::from_f32(value).to_le_bytes())
-        .collect()
 }
 
 fn decode(view: &TensorView<'_>) -> Option<Vec<f32>> {

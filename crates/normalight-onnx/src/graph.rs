@@ -87,15 +87,7 @@ impl<'a> GraphBuilder<'a> {
         inputs: &[ValueInfo],
         outputs: &[ValueInfo],
     ) -> Result<Message, ModelError> {
-        let found = self.weights.tensor_count();
-        if found != self.used {
-            return Err(ModelError::Tensor {
-                name: self.weights.name().to_owned(),
-                tensor: "all".into(),
-                found: format!("{found} tensors"),
-                expected: format!("{} tensors", self.used),
-            });
-        }
+        self.weights.expect_all_used(self.used)?;
         Ok(graph(name, (&self.nodes, &self.tensors), inputs, outputs))
     }
 

@@ -1,5 +1,6 @@
 //! The mean of several trainings' weights.
-use super::{HalfTensors, Weights, file_of, half};
+use super::Weights;
+use super::encode::{HalfTensors, file_of, half};
 use crate::ModelError;
 use std::collections::BTreeMap;
 
