@@ -25,9 +25,9 @@ async function seconds(work) {
   return (performance.now() - start) / 1000;
 }
 
-/** The package: stages as its report has them, preparation of the networks' inputs included. @param {"cpu" | "gpu"} device */
-async function ours(device) {
-  const normalight = await Normalight.create({ device });
+/** The package: stages as its report has them, preparation of the networks' inputs included. @param {"cpu" | "gpu"} device @param {number} threads */
+async function ours(device, threads) {
+  const normalight = await Normalight.create({ device, threads });
   if (normalight.device.kind !== device) throw new Error(normalight.device.notice);
   return async (images, side) => {
     const options = { quality: "fast", refit: false, mask: "none" };
@@ -79,8 +79,9 @@ globalThis.contenders = async () => {
 };
 
 const START = {
-  "normalight, processor": () => ours("cpu"),
-  "normalight, WebGPU": () => ours("gpu"),
+  "normalight, 1 thread": () => ours("cpu", 1),
+  "normalight, 2 threads": () => ours("cpu", 2),
+  "normalight, WebGPU": () => ours("gpu", 1),
   "onnxruntime-web, wasm, 1 thread": () => theirs("ort.wasm.min.mjs", "wasm", 1),
   "onnxruntime-web, wasm, 2 threads": () => theirs("ort.wasm.min.mjs", "wasm", 2),
   "onnxruntime-web, WebGPU": () => theirs("ort.webgpu.min.mjs", "webgpu", 1),

@@ -260,6 +260,20 @@ export interface ExpectedErrors {
 export type FailureKind = "input" | "cancelled" | "device";
 
 /**
+ * Tensors on their way between workers.
+ */
+export interface FeatureParcel {
+    /**
+     * What the values are.
+     */
+    shapes: Uint32Array<ArrayBuffer>;
+    /**
+     * All tensors' values, one after the other.
+     */
+    values: Float32Array<ArrayBuffer>;
+}
+
+/**
  * Numbers with their shape, rows from the top.
  */
 export interface FloatMap {
@@ -271,6 +285,14 @@ export interface FloatMap {
      * `[height, width, channels]`.
      */
     shape: [number, number, number];
+}
+
+/** Workers that do a part of the normal network's work. */
+export interface HelperPool {
+    /** How many there are to be given work. */
+    readonly count: number;
+    /** Gives work to one of them; nothing where it fails. */
+    features(helper: number, shapes: Uint32Array, values: Float32Array): Promise<FeatureParcel | undefined>;
 }
 
 /**

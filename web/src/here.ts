@@ -16,7 +16,8 @@ export function startHere(fetchAsset: FetchAsset): WorkerLike {
         listener = heard;
       },
     },
-    fetchAsset,
+    // Who wants no worker gets none as helper, either.
+    { fetchAsset, cores: 1 },
   );
   const worker: WorkerLike = {
     onmessage: null,

@@ -27,7 +27,7 @@ export async function fetchAsset(url: string): Promise<Response> {
 }
 
 /** A thread, as a browser's worker is spoken to. */
-function startWorker(): WorkerLike {
+export function startWorker(): WorkerLike {
   // The program's own flags, of loaders or how it was given, are none of this thread's.
   const thread = new Worker(new URL("./node-worker.js", import.meta.url), { execArgv: [] });
   const worker: WorkerLike = {

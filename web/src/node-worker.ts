@@ -1,6 +1,7 @@
 // Where Node's thread begins.
+import { availableParallelism } from "node:os";
 import { parentPort } from "node:worker_threads";
-import { fetchAsset } from "./node-platform.js";
+import { fetchAsset, startWorker } from "./node-platform.js";
 import { serve } from "./worker.js";
 
 const port = parentPort;
@@ -11,7 +12,7 @@ const served = serve(
     postMessage: (message, transfer) => port.postMessage(message, transfer),
     hear: (listener) => port.on("message", listener),
   },
-  fetchAsset,
+  { fetchAsset, cores: availableParallelism(), startHelper: startWorker },
 );
 
 // Calls into the module that were under way when it broke down never end by themselves.

@@ -215,7 +215,7 @@ export class Normalight {
     signal?.throwIfAborted();
     const fault = this.#connection?.gpuFault;
     if (fault !== undefined) this.#gpuNotice = `The GPU failed (${fault}), so the processor computes.`;
-    const { device = "auto", onProgress, onLoad, wasmUrl, weights, worker = true } = this.#options;
+    const { device = "auto", onProgress, onLoad, threads, wasmUrl, weights, worker = true } = this.#options;
     const connection = new Connection(
       worker ? this.#platform.startWorker(this.#options) : await startHere(this.#platform.fetchAsset),
       this.#platform.advice(),
@@ -231,6 +231,7 @@ export class Normalight {
         "create",
         {
           device: this.#gpuNotice === undefined ? device : "cpu",
+          threads,
           wasmUrl: wasmUrl && resolve(wasmUrl),
           weights: weights && { light: resolve(weights.light), normal: resolve(weights.normal) },
         },

@@ -1,3 +1,4 @@
+import type { FeatureParcel, InputFile } from "../wasm/normalight.js";
 import type { Addresses } from "./assets.js";
 import type { DerivedSettings, FailureKind, Settings } from "./generated.js";
 import type {
@@ -26,7 +27,13 @@ export interface Unpacked extends UnpackedArchives {
 
 /** What the worker can be asked to do: the request and the response of each task. */
 export interface Tasks {
-  create: { request: { device: DeviceChoice } & Addresses; response: DeviceReport };
+  create: {
+    request: { device: DeviceChoice; threads: number | undefined } & Addresses;
+    response: DeviceReport;
+  };
+  /** Becomes a helper, with a module that another thread has compiled. */
+  help: { request: { module: WebAssembly.Module; normal: InputFile }; response: undefined };
+  features: { request: { shapes: Uint32Array; values: Float32Array }; response: FeatureParcel };
   plan: { request: { files: readonly StackFile[] }; response: Plan };
   unpack: { request: { files: readonly StackFile[] }; response: Unpacked | undefined };
   thumbnail: { request: { file: StackFile; color: ColorMode; side: number }; response: Thumbnail };

@@ -170,6 +170,12 @@ export interface CreateOptions {
    * module, which stays in memory after `close()` and cannot start anew after a crash.
    */
   readonly worker?: boolean;
+  /**
+   * How many threads estimate on the processor: workers beside the one that is there anyhow, each with a module of its own.
+   * As many as the processor has, at most four, when left out; 1 starts no more. They begin with the first estimate on the
+   * processor, and end with `close()`.
+   */
+  readonly threads?: number;
   /** Stops the loading: the promise then rejects with the signal's reason. */
   readonly signal?: AbortSignal;
 }

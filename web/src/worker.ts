@@ -1,11 +1,11 @@
-import type { InputFile } from "../wasm/normalight.js";
+import type { Helper, InputFile } from "../wasm/normalight.js";
 import { bytesOf, HEAD, read, readForPlan } from "./decode.js";
 import { Engines } from "./engines.js";
 import { messageOf } from "./errors.js";
-import type { FetchAsset } from "./fetch.js";
 import type { FailureKind, Thrown } from "./generated.js";
-import type { Module } from "./load.js";
+import { loadModule, type Module } from "./load.js";
 import type { FromWorker, TaskName, Tasks, ToWorker } from "./protocol.js";
+import type { Surroundings } from "./surroundings.js";
 import type { DeviceReport, StackFile } from "./types.js";
 import { yieldToEvents } from "./yielding.js";
 
@@ -26,19 +26,22 @@ export interface Served {
 /** An estimator and its state. */
 interface State {
   readonly scope: Scope;
-  readonly fetchAsset: FetchAsset;
+  readonly surroundings: Surroundings;
   engines: Engines | undefined;
+  /** What helps another worker's engines. */
+  helper: Helper | undefined;
   cancelled: boolean;
   busy: boolean;
   stopped: boolean;
 }
 
 /** Answers the messages of a scope. */
-export function serve(scope: Scope, fetchAsset: FetchAsset): Served {
+export function serve(scope: Scope, surroundings: Surroundings): Served {
   const state: State = {
     scope,
-    fetchAsset,
+    surroundings,
     engines: undefined,
+    helper: undefined,
     cancelled: false,
     busy: false,
     stopped: false,
@@ -61,6 +64,8 @@ export function serve(scope: Scope, fetchAsset: FetchAsset): Served {
 function release(state: State): void {
   state.engines?.free();
   state.engines = undefined;
+  state.helper?.free();
+  state.helper = undefined;
 }
 
 async function respond(state: State, message: Exclude<ToWorker, { task: "cancel" }>): Promise<void> {
@@ -87,7 +92,12 @@ async function perform(
   message: Exclude<ToWorker, { task: "cancel" }>,
 ): Promise<Tasks[TaskName]["response"]> {
   if (message.task === "create") return await create(state, message.request);
-  const { engines } = state;
+  if (message.task === "help") return await help(state, message.request);
+  const { engines, helper } = state;
+  if (message.task === "features") {
+    if (helper === undefined) throw new Error("this is no helper");
+    return await helper.features(message.request.shapes, message.request.values);
+  }
   if (engines === undefined) throw new Error("nothing was loaded");
   const wasm = engines.module;
   switch (message.task) {
@@ -115,13 +125,19 @@ async function perform(
 }
 
 async function create(state: State, request: Tasks["create"]["request"]): Promise<DeviceReport> {
-  const { engines, device } = await Engines.create(request, state.fetchAsset, {
+  const { engines, device } = await Engines.create(request, state.surroundings, {
     load: (progress) => tell(state, { event: "load", ...progress }),
     device: (device) => tell(state, { event: "device", device }),
     crashed: (words, gpu) => crashed(state, words, gpu),
   });
   state.engines = engines;
   return device;
+}
+
+async function help(state: State, { module, normal }: Tasks["help"]["request"]): Promise<undefined> {
+  const onPanic = (words: string) => crashed(state, words, false);
+  const loaded = await loadModule(state.surroundings.fetchAsset, module, undefined, onPanic);
+  state.helper = new loaded.module.Helper(normal);
 }
 
 async function estimate(

@@ -40,10 +40,10 @@ function tar(contents) {
   return new Uint8Array(Buffer.concat([...blocks, Buffer.alloc(1024)]));
 }
 
-test("a thread and the calling thread give the same", async () => {
+test("one thread, several and the calling thread give the same", async () => {
   const results = [];
-  for (const worker of [true, false]) {
-    const normalight = await Normalight.create({ worker });
+  for (const options of [{ threads: 1 }, { threads: 3 }, { worker: false }]) {
+    const normalight = await Normalight.create(options);
     assert.equal(normalight.device.kind, "cpu");
     const heard = new Set();
     results.push(
@@ -58,12 +58,14 @@ test("a thread and the calling thread give the same", async () => {
     normalight.close();
     await assert.rejects(normalight.plan([]), { code: "closed", message: "this estimator was closed" });
   }
-  const [first, second] = results;
+  const [first, second, third] = results;
   assert.equal(first?.lights.length, 4);
   assert.deepEqual(first?.normalMap, second?.normalMap);
+  assert.deepEqual(first?.normalMap, third?.normalMap);
 });
 
 test("what cannot be is refused in words, and files of Node's own do", async () => {
+  await assert.rejects(Normalight.create({ threads: 0 }), { code: "input", message: /^threads: found 0/ });
   const normalight = await Normalight.create();
   await assert.rejects(normalight.estimate(files.slice(0, 2)), (error) => {
     assert.ok(error instanceof NormalightError);

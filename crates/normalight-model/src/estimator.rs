@@ -1,11 +1,11 @@
 use crate::observer::{Observer, PipelineStage, report};
 use crate::{
-    AveragedNormals, LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError, Weights,
-    light_cost, normal_cost,
+    AveragedNormals, Helpers, LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError,
+    NoHelpers, Weights, light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
-    CalibratedStack, Estimate, EstimateSettings, ImageStack, Light, LightCoverage, Mask,
+    CalibratedStack, Estimate, EstimateSettings, ImageStack, Light, LightCoverage, Mask, Symmetry,
     albedo_map, expected_normal_error, refit_lights,
 };
 
@@ -49,6 +49,26 @@ impl Estimator {
         ]
     }
 
+    /// Multiply-adds of both networks' convolutions and fully connected layers in an estimate; the light network is
+    /// counted whole in both of its passes.
+    pub fn multiply_adds(&self, input: EstimateInput<'_>, settings: EstimateSettings) -> u64 {
+        let EstimateInput {
+            stack,
+            mask,
+            lights,
+        } = input;
+        let quality = settings.quality;
+        let normals =
+            |views: &[Symmetry]| self.normal.multiply_adds(stack.len(), mask, views.len());
+        let lights_found = match lights {
+            Some(_) => 0,
+            None => self.light.multiply_adds(stack.len(), quality),
+        };
+        let refit = settings.refit_of(lights.is_some());
+        let before = refit.map_or(0, |_| normals(quality.refit_views()));
+        lights_found + before + normals(quality.views())
+    }
+
     /// SHA-256 of the light and the normal weights, in hexadecimal.
     pub fn weight_hashes(&self) -> [&str; 2] {
         [&self.hashes[0], &self.hashes[1]]
@@ -61,6 +81,21 @@ impl Estimator {
     /// [`ModelError::Device`].
     pub async fn estimate(
         &self,
+        input: EstimateInput<'_>,
+        settings: EstimateSettings,
+        observer: &mut impl Observer,
+    ) -> Result<Estimate, ModelError> {
+        self.estimate_with(&NoHelpers, input, settings, observer)
+            .await
+    }
+
+    /// The same with others' help, who do a part of the normal network's work.
+    ///
+    /// # Errors
+    /// As [`Estimator::estimate`].
+    pub async fn estimate_with(
+        &self,
+        helpers: &impl Helpers,
         input: EstimateInput<'_>,
         settings: EstimateSettings,
         observer: &mut impl Observer,
@@ -87,6 +122,7 @@ impl Estimator {
             let calibrated = CalibratedStack::new(stack, mask, &lights)?;
             let averaged = self
                 .normal
+                .helped_by(helpers)
                 .estimate(calibrated, views, stage, observer)
                 .await?;
             report(observer, PipelineStage::Refit, 0.0).await?;
@@ -97,6 +133,7 @@ impl Estimator {
         let calibrated = CalibratedStack::new(stack, mask, &lights)?;
         let AveragedNormals { normals, spread } = self
             .normal
+            .helped_by(helpers)
             .estimate(calibrated, views, stage, observer)
             .await?;
         report(observer, PipelineStage::Albedo, 0.0).await?;

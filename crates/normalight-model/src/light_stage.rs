@@ -1,5 +1,5 @@
 use crate::observer::{Observer, PipelineStage, report};
-use crate::{LightInput, LightView, LoadedLightNetwork, ModelError, Quality};
+use crate::{LightInput, LightView, LoadedLightNetwork, ModelError, Quality, light_cost};
 use burn::tensor::{Tensor, TensorData, activation};
 use normalight_core::{Decoding, ImageStack, Light, Mask};
 use std::ops::Range;
@@ -25,6 +25,12 @@ impl LightOptions {
 }
 
 impl LoadedLightNetwork {
+    /// Multiply-adds of an estimate: features are computed twice, for their maximum and to be classified beside it.
+    pub(crate) fn multiply_adds(&self, images: usize, quality: Quality) -> u64 {
+        let views = if quality.mirrors_lights() { 2 } else { 1 };
+        2 * views * light_cost(&self.architecture).multiply_adds(images)
+    }
+
     /// Estimates the light of every image: one pass for the maximum of the features over the images,
     /// one to classify each image against it.
     ///

@@ -1,22 +1,21 @@
+mod tiles;
+
+use crate::helpers::{Helpers, NoHelpers, Parcel, packed};
 use crate::light_stage::read_back;
 use crate::observer::{Observer, PipelineStage, report};
-use crate::{
-    FusedFeatures, LoadedNormalNetwork, ModelError, NormalArchitecture, NormalInput, NormalNetwork,
-};
-use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{
-    CalibratedStack, Light, Mask, NormalMap, Rect, Symmetry, Vec3, spread_order,
-};
+use crate::{FusedFeatures, LoadedNormalNetwork, ModelError, NormalNetwork, normal_cost};
+use burn::tensor::{Tensor, TensorData};
+use normalight_core::{CalibratedStack, Mask, NormalMap, Rect, Symmetry, Vec3, spread_order};
+use tiles::{Tile, TileView, tiles};
 
-/// Images that go through the network together: bounds the memory, whatever the size of the stack.
+/// Most images that go through the network together, and most pixels of all of them: bounds the memory, and how long nothing
+/// else is heard, whatever the size of the stack.
 const BATCH: usize = 8;
+const BATCH_PIXELS: usize = 4 * 320 * 320;
 
 /// Images, about, whose features meet in one maximum. Trainings show a network at most some twenty images a
 /// sample; the maximum over a hundred lies beyond what it has seen, and one odd image decides it.
 const GROUP: usize = 24;
-
-/// Side of the part of a tile that is kept; objects up to this size need one tile.
-const TILE: usize = 256;
 
 /// Normals, and how far apart those are that they are means of.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +28,7 @@ pub struct AveragedNormals {
 }
 
 impl LoadedNormalNetwork {
-    /// Estimates the normals of a stack under known lights, tile by tile, as [`NormalInput`] encodes it.
+    /// Estimates the normals of a stack under known lights, tile by tile, as [`NormalInput`](crate::NormalInput) encodes it.
     ///
     /// The network looks at the photographs in each of the `views` (one at least), and the normals, turned back, are
     /// averaged: what it errs differently in each view goes. One view costs as much as the next. More than 35 images are
@@ -44,37 +43,83 @@ impl LoadedNormalNetwork {
         stage: PipelineStage,
         observer: &mut impl Observer,
     ) -> Result<AveragedNormals, ModelError> {
+        let alone = self.helped_by(&NoHelpers);
+        alone.estimate(calibrated, views, stage, observer).await
+    }
+
+    /// The same network with others who help.
+    pub fn helped_by<'a, H: Helpers>(&'a self, helpers: &'a H) -> Helped<'a, H> {
+        Helped {
+            loaded: self,
+            helpers,
+        }
+    }
+
+    /// Multiply-adds of an estimate of the object in a mask, what is computed twice where tiles overlap included.
+    pub(crate) fn multiply_adds(&self, images: usize, mask: &Mask, views: usize) -> u64 {
+        let groups: Vec<usize> = groups(images).iter().map(Vec::len).collect();
+        let of_tile = |kept: &Rect| -> u64 {
+            let seen = kept.grown(self.architecture.overlap(), mask.width(), mask.height());
+            let padded = |side: usize| side.next_multiple_of(NormalNetwork::ALIGNMENT);
+            let cost = normal_cost(&self.architecture, padded(seen.width) * padded(seen.height));
+            groups.iter().map(|&group| cost.multiply_adds(group)).sum()
+        };
+        tiles(mask).iter().map(of_tile).sum::<u64>() * views as u64
+    }
+}
+
+/// A normal network with others who compute features of a part of the images.
+#[derive(Debug, Clone, Copy)]
+pub struct Helped<'a, H> {
+    loaded: &'a LoadedNormalNetwork,
+    helpers: &'a H,
+}
+
+impl<H: Helpers> Helped<'_, H> {
+    /// What [`LoadedNormalNetwork::estimate`] does.
+    ///
+    /// # Errors
+    /// The same.
+    pub async fn estimate(
+        &self,
+        calibrated: CalibratedStack<'_>,
+        views: &[Symmetry],
+        stage: PipelineStage,
+        observer: &mut impl Observer,
+    ) -> Result<AveragedNormals, ModelError> {
+        let network = &self.loaded.network;
         let (stack, mask) = (calibrated.stack(), calibrated.mask());
         let (width, height) = (stack.width(), stack.height());
         let mut normals = vec![Vec3::ZERO; width * height];
         let tiles = tiles(mask);
         let groups = groups(stack.len());
-        let passes = self.network.passes();
+        let passes = network.passes();
         let steps = (tiles.len() * views.len() * stack.len() * passes) as f32;
         let mut done = 0;
         for &kept in &tiles {
-            let tile = Tile::new(calibrated, kept, &self.architecture);
+            let tile = Tile::new(calibrated, kept, &self.loaded.architecture);
             for &symmetry in views {
                 let view = TileView::new(&tile, symmetry);
                 for group in &groups {
-                    let mut kept: Vec<FusedFeatures> = Vec::new();
-                    for _ in 0..passes {
+                    let mut earlier = Earlier::default();
+                    for pass in 1..=passes {
                         let mut fused: Option<FusedFeatures> = None;
-                        for images in group.chunks(BATCH) {
+                        for images in rounds(group, view.pixels(), self.helpers.count()) {
                             report(observer, stage, done as f32 / steps).await?;
-                            done += images.len();
-                            let input = view.batch(images, &self.device);
-                            let more = self.network.fuse_after(input, 1, &kept);
+                            done += images.iter().map(|part| part.len()).sum::<usize>();
+                            let more = self.fuse(&view, &images, &earlier).await;
                             fused = Some(match fused {
                                 Some(before) => before.and(more),
                                 None => more,
                             });
                         }
-                        kept.extend(fused);
-                    }
-                    if let Some(fused) = kept.pop() {
-                        let values = read_back(self.network.regress(fused)).await?;
-                        view.add(&values, &mut normals);
+                        let Some(fused) = fused else { continue };
+                        if pass < passes {
+                            earlier.keep(fused, self.helpers.count() > 0).await?;
+                        } else {
+                            let values = read_back(network.regress(fused)).await?;
+                            view.add(&values, &mut normals);
+                        }
                     }
                 }
             }
@@ -94,6 +139,68 @@ impl LoadedNormalNetwork {
             spread,
         })
     }
+
+    /// Features of a round's images: the first part's are computed here, the others' by a helper each.
+    async fn fuse(
+        &self,
+        view: &TileView<'_>,
+        round: &[&[usize]],
+        earlier: &Earlier,
+    ) -> FusedFeatures {
+        let here = |images: &[usize]| {
+            let (values, shape) = view.batch(images);
+            let input = Tensor::from_data(TensorData::new(values, shape), &self.loaded.device);
+            self.loaded.network.fuse_after(input, 1, &earlier.features)
+        };
+        let [own, others @ ..] = round else {
+            unreachable!("a round has a part at least");
+        };
+        let mut working = Vec::with_capacity(others.len());
+        for (helper, images) in others.iter().enumerate() {
+            let (values, shape) = view.batch(images);
+            let work = Parcel::work(values, shape, &earlier.parcels);
+            working.push(self.helpers.features(helper, work));
+        }
+        let mut fused = here(own);
+        for (images, answer) in others.iter().zip(working) {
+            let found = answer
+                .await
+                .and_then(|found| found.features(&self.loaded.device));
+            fused = fused.and(found.unwrap_or_else(|| here(images)));
+        }
+        fused
+    }
+}
+
+/// What earlier passes kept of all images.
+#[derive(Default)]
+struct Earlier {
+    features: Vec<FusedFeatures>,
+    /// The same for helpers, where there are any.
+    parcels: Vec<Parcel>,
+}
+
+impl Earlier {
+    async fn keep(&mut self, features: FusedFeatures, for_helpers: bool) -> Result<(), ModelError> {
+        if for_helpers {
+            self.parcels.push(packed(features.clone()).await?);
+        }
+        self.features.push(features);
+        Ok(())
+    }
+}
+
+/// Deals images into parts that go through the network together, rounds of as many parts as there are to compute them.
+fn rounds(images: &[usize], pixels: usize, helpers: usize) -> Vec<Vec<&[usize]>> {
+    let workers = 1 + helpers;
+    let most = (BATCH_PIXELS / pixels.max(1)).clamp(1, BATCH);
+    let parts = images.len().div_ceil(most).next_multiple_of(workers);
+    let parts = parts.min(images.len());
+    let start = |part: usize| part * images.len() / parts.max(1);
+    let parts: Vec<&[usize]> = (0..parts)
+        .map(|part| &images[start(part)..start(part + 1)])
+        .collect();
+    parts.chunks(workers).map(<[_]>::to_vec).collect()
 }
 
 /// Root mean square angle in degrees between unit vectors and their mean, of the sums of `votes` of them each; as an estimate
@@ -122,139 +229,6 @@ fn groups(images: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Rectangles that cover the object's bounding box, those without object left out.
-fn tiles(mask: &Mask) -> Vec<Rect> {
-    let Some(object) = mask.bounding_box() else {
-        return Vec::new();
-    };
-    let mut tiles = Vec::new();
-    for y in (0..object.height).step_by(TILE) {
-        for x in (0..object.width).step_by(TILE) {
-            let tile = Rect {
-                x: object.x + x,
-                y: object.y + y,
-                width: TILE.min(object.width - x),
-                height: TILE.min(object.height - y),
-            };
-            let touched = (tile.y..tile.y + tile.height).any(|row| {
-                let start = row * mask.width() + tile.x;
-                mask.inside()[start..start + tile.width].contains(&true)
-            });
-            if touched {
-                tiles.push(tile);
-            }
-        }
-    }
-    tiles
-}
-
-/// A rectangle of the stack, and what is the same in all its views.
-struct Tile<'a> {
-    calibrated: CalibratedStack<'a>,
-    /// The part that is kept of the normals.
-    kept: Rect,
-    /// The part that the network sees.
-    rect: Rect,
-    input: NormalInput,
-}
-
-impl<'a> Tile<'a> {
-    fn new(calibrated: CalibratedStack<'a>, kept: Rect, architecture: &NormalArchitecture) -> Self {
-        let (stack, mask) = (calibrated.stack(), calibrated.mask());
-        let rect = kept.grown(architecture.overlap(), stack.width(), stack.height());
-        let inside = (0..rect.area()).map(|index| {
-            let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
-            mask.inside()[y * mask.width() + x]
-        });
-        let read = |image: usize, planes: &mut [f32]| stack.linear_tile(image, rect, planes);
-        Self {
-            calibrated,
-            kept,
-            rect,
-            input: NormalInput::new(
-                architecture.mask_channel,
-                inside.collect(),
-                calibrated.lights(),
-                read,
-            ),
-        }
-    }
-}
-
-/// A tile turned and mirrored, ready for the network: padded with zeros to a multiple of
-/// [`NormalNetwork::ALIGNMENT`]. The padding comes last, so that the network sees the same, at the
-/// same place, as in a stack of turned photographs.
-struct TileView<'a> {
-    tile: &'a Tile<'a>,
-    symmetry: Symmetry,
-    width: usize,
-    height: usize,
-    /// Where each of the tile's pixels lies in the view, `[rect.height, rect.width]`.
-    places: Vec<usize>,
-}
-
-impl<'a> TileView<'a> {
-    fn new(tile: &'a Tile, symmetry: Symmetry) -> Self {
-        let rect = tile.rect;
-        let (width, height) = symmetry.size(rect.width, rect.height);
-        let width = width.next_multiple_of(NormalNetwork::ALIGNMENT);
-        let height = height.next_multiple_of(NormalNetwork::ALIGNMENT);
-        let place = |index: usize| {
-            let (x, y) = (index % rect.width, index / rect.width);
-            let (x, y) = symmetry.pixel(x, y, rect.width, rect.height);
-            y * width + x
-        };
-        Self {
-            tile,
-            symmetry,
-            width,
-            height,
-            places: (0..rect.area()).map(place).collect(),
-        }
-    }
-
-    /// # Shapes
-    /// `[images, height, width, channels]`
-    fn batch(&self, images: &[usize], device: &Device) -> Tensor<4> {
-        let Tile {
-            calibrated,
-            rect,
-            input,
-            ..
-        } = self.tile;
-        let channels = input.channel_count();
-        let shape = [images.len(), self.height, self.width, channels];
-        let mut values = vec![0.0; shape.iter().product()];
-        let mut planes = vec![0.0; 3 * rect.area()];
-        let outs = values.chunks_exact_mut(channels * self.width * self.height);
-        for (&image, out) in images.iter().zip(outs) {
-            calibrated.stack().linear_tile(image, *rect, &mut planes);
-            let light = calibrated.lights()[image];
-            let turned = Light {
-                direction: self.symmetry.vector(light.direction),
-                ..light
-            };
-            input.encode(&planes, &turned, |pixel| self.places[pixel], out);
-        }
-        Tensor::from_data(TensorData::new(values, shape), device)
-    }
-
-    /// Turns the network's output back and adds the kept part of it to the whole map.
-    fn add(&self, values: &[f32], normals: &mut [Vec3]) {
-        let (back, mask) = (self.symmetry.inverse(), self.tile.calibrated.mask());
-        let Tile { kept, rect, .. } = self.tile;
-        for y in kept.y..kept.y + kept.height {
-            for x in kept.x..kept.x + kept.width {
-                let target = y * mask.width() + x;
-                if mask.inside()[target] {
-                    let place = self.places[(y - rect.y) * rect.width + (x - rect.x)];
-                    normals[target] += back.vector(Vec3::from_slice(&values[3 * place..]));
-                }
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,6 +241,27 @@ mod tests {
         let found = spread(&[at(-6.0) + at(6.0), at(3.0) + at(3.0), Vec3::ZERO], 2);
         assert!((found[0] - 6.0 * 2f32.sqrt()).abs() < 0.02, "{found:?}");
         assert!(found[1] < 0.05 && found[2] == 0.0);
+    }
+
+    #[test]
+    fn rounds_hold_every_image_once_in_parts_for_all_who_compute() {
+        for (images, pixels, helpers, expected) in [
+            (16, 192 * 192, 0, vec![vec![8], vec![8]]),
+            (16, 192 * 192, 1, vec![vec![8, 8]]),
+            (12, 192 * 192, 2, vec![vec![4, 4, 4]]),
+            (9, 192 * 192, 1, vec![vec![4, 5]]),
+            (24, 192 * 192, 1, vec![vec![6, 6], vec![6, 6]]),
+            (2, 192 * 192, 3, vec![vec![1, 1]]),
+            (5, 576 * 576, 1, vec![vec![1, 1], vec![1, 1], vec![1]]),
+        ] {
+            let numbers: Vec<usize> = (0..images).collect();
+            let rounds = rounds(&numbers, pixels, helpers);
+            assert_eq!(rounds.concat().concat(), numbers);
+            let lengths = |round: &Vec<&[usize]>| -> Vec<usize> {
+                round.iter().map(|part| part.len()).collect()
+            };
+            assert_eq!(rounds.iter().map(lengths).collect::<Vec<_>>(), expected);
+        }
     }
 
     #[test]
@@ -288,29 +283,6 @@ mod tests {
                     group.len()
                 );
             }
-        }
-    }
-
-    #[test]
-    fn tiles_cover_the_object_once() {
-        let (width, height) = (700, 300);
-        let inside: Vec<bool> = (0..width * height)
-            .map(|index| {
-                let (x, y) = (index % width, index / width);
-                (20..600).contains(&x) && y > 10 && !(300..520).contains(&x)
-            })
-            .collect();
-        let mask = Mask::new(width, height, inside);
-        let mut covered = vec![0; width * height];
-        for tile in tiles(&mask) {
-            for y in tile.y..tile.y + tile.height {
-                for x in tile.x..tile.x + tile.width {
-                    covered[y * width + x] += 1;
-                }
-            }
-        }
-        for (count, &inside) in covered.iter().zip(mask.inside()) {
-            assert!(*count <= 1 && (*count == 1 || !inside));
         }
     }
 }

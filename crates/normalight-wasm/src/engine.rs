@@ -2,6 +2,7 @@
 use crate::callback::{ProgressCallback, ProgressObserver};
 use crate::error::Failure;
 use crate::file::{InputFile, decoded_by_browser, named_bytes};
+use crate::helper::HelperPool;
 use crate::result::{Estimated, Run};
 use crate::settings::Settings;
 use burn::tensor::Device;
@@ -73,7 +74,8 @@ impl Engine {
         })
     }
 
-    /// From files to lights and normals. A `mask` or `lights` file replaces what would be found.
+    /// From files to lights and normals. A `mask` or `lights` file replaces what would be found; helpers compute on
+    /// processors, and are left alone by a GPU.
     ///
     /// # Errors
     /// Files or settings that do not do, a callback that says stop, a device that fails.
@@ -84,6 +86,7 @@ impl Engine {
         lights: Option<InputFile>,
         settings: Ts<Settings>,
         callback: ProgressCallback,
+        helpers: Option<HelperPool>,
     ) -> Result<Ts<Estimated>, Failure> {
         let settings = settings.to_rust()?;
         let mut observer = ProgressObserver::start(&callback)
@@ -104,7 +107,8 @@ impl Engine {
         observer.read(&input.plan)?;
         let estimate = self
             .estimator
-            .estimate(
+            .estimate_with(
+                &helpers,
                 EstimateInput {
                     stack: &input.stack,
                     mask: &input.mask,

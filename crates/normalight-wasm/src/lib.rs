@@ -13,6 +13,7 @@ mod derived;
 mod engine;
 mod error;
 mod file;
+mod helper;
 #[cfg(feature = "cpu")]
 mod inspect;
 mod maps;
@@ -29,6 +30,9 @@ pub use callback::ProgressCallback;
 pub use derived::{Derived, NormalPictures, derive, normal_pictures};
 pub use engine::Engine;
 pub use file::InputFile;
+#[cfg(feature = "cpu")]
+pub use helper::Helper;
+pub use helper::{FeatureParcel, HelperPool};
 #[cfg(feature = "cpu")]
 pub use inspect::{Plan, Thumbnail, plan, thumbnail};
 pub use maps::FloatMap;

@@ -55,6 +55,27 @@ impl FusedFeatures {
         }
     }
 
+    /// The number of images and all that is kept of them: maximum, sum, and those of single pixels.
+    pub(crate) fn into_maps(self) -> (usize, [Option<Tensor<4>>; 4]) {
+        let (most, sum) = self.pixels.map(|pixels| (pixels.most, pixels.sum)).unzip();
+        (self.images, [Some(self.features), self.sum, most, sum])
+    }
+
+    /// What [`FusedFeatures::into_maps`] took apart; `None` without a maximum, or with half of the single pixels'.
+    pub(crate) fn from_maps(images: usize, maps: [Option<Tensor<4>>; 4]) -> Option<Self> {
+        let [features, sum, most, pixels] = maps;
+        Some(Self {
+            features: features?,
+            sum,
+            pixels: match (most, pixels) {
+                (Some(most), Some(sum)) => Some(FusedPixels { most, sum }),
+                (None, None) => None,
+                _ => return None,
+            },
+            images,
+        })
+    }
+
     /// Mean of the features over the images; the maximum where no mean is kept.
     pub(super) fn mean(&self) -> Tensor<4> {
         match &self.sum {

@@ -1,169 +1,25 @@
 //! Averages over views, against turned photographs and against the bare network.
 #![allow(clippy::unwrap_used, reason = "a test stops where it fails")]
 
+mod helpers;
+mod scene;
+
 use burn::tensor::{Device, Tensor, TensorData};
-use normalight_core::{
-    CalibratedStack, ImageStack, Light, Mask, RefitSettings, Samples, StackImage, Symmetry,
-    Transfer, Vec3,
-};
+use normalight_core::{RefitSettings, Symmetry, Vec3};
 use normalight_model::{
-    EstimateInput, EstimateSettings, Estimator, LightArchitecture, LightNetwork, LoadedNetwork,
-    LoadedNormalNetwork, ModelError, NoopObserver, NormalArchitecture, NormalNetwork, Observer,
-    PipelineStage, Progress, Quality, Weights,
+    EstimateInput, EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError,
+    NoopObserver, NormalArchitecture, NormalNetwork, Observer, Progress, Quality, Weights,
 };
+use scene::{IMAGES, Scene, Untrained, furthest, turned_back};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-
-const IMAGES: usize = 3;
-
-/// Rows of pixels: turned here by exchanging and reversing rows, not by formulas for places.
-type Grid<T> = Vec<Vec<T>>;
-
-fn transposed<T: Copy>(grid: Grid<T>) -> Grid<T> {
-    (0..grid[0].len())
-        .map(|column| grid.iter().map(|row| row[column]).collect())
-        .collect()
-}
-
-fn turned<T: Copy>(symmetry: Symmetry, mut grid: Grid<T>) -> Grid<T> {
-    if symmetry.transposed {
-        grid = transposed(grid);
-    }
-    if symmetry.mirrored {
-        grid.iter_mut().for_each(|row| row.reverse());
-    }
-    if symmetry.upside_down {
-        grid.reverse();
-    }
-    grid
-}
-
-fn turned_back<T: Copy>(symmetry: Symmetry, mut grid: Grid<T>) -> Grid<T> {
-    let mirrorings = Symmetry {
-        transposed: false,
-        ..symmetry
-    };
-    grid = turned(mirrorings, grid);
-    if symmetry.transposed {
-        grid = transposed(grid);
-    }
-    grid
-}
-
-/// Photographs without any symmetry, in which every pixel is noise, with their lights.
-#[derive(Clone)]
-struct Scene {
-    images: Vec<Grid<[f32; 3]>>,
-    inside: Grid<bool>,
-    lights: Vec<Light>,
-}
-
-impl Scene {
-    /// All pixels but those of `outside` belong to the object.
-    fn new(width: usize, height: usize, outside: impl Fn(usize, usize) -> bool) -> Self {
-        let mut state = 1u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32
-        };
-        let rows = 0..height;
-        let images = (0..IMAGES)
-            .map(|_| {
-                let row = |_| (0..width).map(|_| [random(), random(), random()]).collect();
-                rows.clone().map(row).collect()
-            })
-            .collect();
-        let directions = [[0.3, 0.5, 0.8], [-0.6, 0.1, 0.7], [0.2, -0.4, 0.9]];
-        let light = |(k, direction)| Light {
-            intensity: [0.8, 1.0, 1.1 + 0.3 * k as f32],
-            ..Light::new(Vec3::from_array(direction), 1.0)
-        };
-        Self {
-            images,
-            inside: rows
-                .map(|y| (0..width).map(|x| !outside(x, y)).collect())
-                .collect(),
-            lights: directions.into_iter().enumerate().map(light).collect(),
-        }
-    }
-
-    fn turned(&self, symmetry: Symmetry) -> Self {
-        let mut scene = self.clone();
-        for image in &mut scene.images {
-            *image = turned(symmetry, std::mem::take(image));
-        }
-        scene.inside = turned(symmetry, scene.inside);
-        for light in &mut scene.lights {
-            light.direction = symmetry.vector(light.direction);
-        }
-        scene
-    }
-
-    fn stack(&self) -> ImageStack {
-        let image = |image: &Grid<[f32; 3]>| StackImage {
-            name: "noise".to_owned(),
-            width: image[0].len(),
-            height: image.len(),
-            channels: 3,
-            samples: Samples::F32(image.iter().flatten().flatten().copied().collect()),
-            transfer: Transfer::Linear,
-        };
-        ImageStack::new(self.images.iter().map(image).collect()).unwrap()
-    }
-
-    fn mask(&self) -> Mask {
-        let inside = self.inside.concat();
-        Mask::new(self.inside[0].len(), self.inside.len(), inside)
-    }
-}
-
-/// An untrained network, which treats no two views alike.
-struct Untrained {
-    loaded: LoadedNormalNetwork,
-}
-
-impl Untrained {
-    fn new() -> Self {
-        let device = Device::flex();
-        let architecture = NormalArchitecture {
-            mask_channel: true,
-            ..NormalArchitecture::plain()
-        };
-        let network = NormalNetwork::new(&architecture, false, &device).unwrap();
-        Self {
-            loaded: LoadedNetwork {
-                architecture,
-                network,
-                device,
-            },
-        }
-    }
-
-    fn normals(&self, scene: &Scene, views: &[Symmetry], observer: &mut impl Observer) -> Found {
-        let (stack, mask) = (scene.stack(), scene.mask());
-        let calibrated = CalibratedStack::new(&stack, &mask, &scene.lights)?;
-        let estimated = self
-            .loaded
-            .estimate(calibrated, views, PipelineStage::Normals, observer);
-        let map = pollster::block_on(estimated)?.normals;
-        let rows = map.normals().chunks_exact(map.width());
-        Ok(rows.map(<[Vec3]>::to_vec).collect())
-    }
-}
-
-type Found = Result<Grid<Vec3>, ModelError>;
-
-fn furthest(one: &Grid<Vec3>, two: &Grid<Vec3>) -> f32 {
-    let pairs = one.iter().flatten().zip(two.iter().flatten());
-    pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
-}
 
 #[test]
 fn all_views_are_the_mean_over_turned_photographs() {
     let untrained = Untrained::new();
     // Odd sides; and an object of two whole tiles, which divide it alike however it is turned.
     let odd = Scene::new(37, 22, |x, y| x < 3 || y > 18 || (x + y) % 11 == 0);
-    let tiles = Scene::new(512, 20, |x, y| (x * y) % 13 == 7);
+    let tiles = Scene::new(1024, 20, |x, y| (x * y) % 13 == 7);
     for scene in [odd, tiles] {
         let mut sum = vec![vec![Vec3::ZERO; scene.inside[0].len()]; scene.inside.len()];
         for symmetry in Symmetry::ALL {
