@@ -13,7 +13,7 @@ use crate::{
     Upsampling,
 };
 use cells::{cell_row, last_channels};
-use layers::{biased, conv, dense};
+use layers::{biased, conv, dense, transposed};
 
 /// What a network costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,10 +124,7 @@ pub fn normal_cost(architecture: &NormalArchitecture, area: usize) -> NetworkCos
             let [first, second] = cells.stem_strides.map(|stride| stride * stride);
             let stem = area / (first * second);
             let up = |from: usize, to: usize, area: usize| match cells.upsampling {
-                Upsampling::Transposed => Cost {
-                    parameters: 16 * from * to + to,
-                    multiply_adds: (4 * from * to * area) as u64,
-                },
+                Upsampling::Transposed => transposed(from, to, area),
                 Upsampling::Nearest => conv(from, to, area),
             };
             let [features, regressor] = normal_cell_sites(cells, area);

@@ -1,10 +1,12 @@
 //! Layers; feature maps are channels last, `[batch, height, width, channels]`.
 
 use burn::module::Module;
-use burn::nn::conv::{Conv2d, Conv2dConfig};
+use burn::nn::conv::{Conv2d, Conv2dConfig, ConvTranspose2d, ConvTranspose2dConfig};
 use burn::nn::{BatchNorm, BatchNormConfig, PaddingConfig2d};
 use burn::tensor::{Device, Tensor, activation};
-use normalight_kernels::{BatchMoments, Convolution, batch_norm, scale_channels};
+use normalight_kernels::{
+    BatchMoments, Convolution, batch_norm, scale_channels, transposed_convolution,
+};
 
 /// Slope of the leaky ReLU of all plain layers.
 pub const LEAK: f32 = 0.1;
@@ -23,6 +25,22 @@ pub(crate) fn convolution(
             padding, padding, padding, padding,
         ))
         .init(device)
+}
+
+/// A transposed convolution with bias that doubles the size.
+pub(crate) fn transposed_doubling(channels: [usize; 2], device: &Device) -> ConvTranspose2d {
+    ConvTranspose2dConfig::new(channels, [4, 4])
+        .with_stride([2, 2])
+        .with_padding([1, 1])
+        .init(device)
+}
+
+/// The same on a map, then a leaky ReLU.
+pub(crate) fn doubled_by(conv: &ConvTranspose2d, input: Tensor<4>) -> Tensor<4> {
+    let Some(bias) = &conv.bias else {
+        unreachable!("`transposed_doubling` gives a bias");
+    };
+    transposed_convolution(input, conv.weight.val(), bias.val(), LEAK)
 }
 
 /// A depthwise convolution without bias.

@@ -7,16 +7,17 @@ pub use fused::FusedFeatures;
 
 use crate::cell::{CellLayer, CellPlan, CellRow, forward_row};
 use crate::layers::{
-    Form, LEAK, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row, unit_length,
+    Form, convolution, convolve, convolve_doubled, convolve_leaky, convolve_row, doubled_by,
+    transposed_doubling, unit_length,
 };
 use crate::{
     CellNormal, ModelError, NormalArchitecture, NormalBody, NormalGenotype, Relaxation,
     SearchSpace, Upsampling,
 };
 use burn::module::Module;
-use burn::nn::conv::{Conv2d, ConvTranspose2d, ConvTranspose2dConfig};
+use burn::nn::conv::{Conv2d, ConvTranspose2d};
 use burn::tensor::{Device, Tensor};
-use normalight_kernels::{max_over_images, transposed_convolution};
+use normalight_kernels::max_over_images;
 use plain::PlainBody;
 use staged::StagedBody;
 
@@ -61,24 +62,14 @@ enum UpLayer {
 impl UpLayer {
     fn new(channels: [usize; 2], upsampling: Upsampling, device: &Device) -> Self {
         match upsampling {
-            Upsampling::Transposed => Self::Transposed(
-                ConvTranspose2dConfig::new(channels, [4, 4])
-                    .with_stride([2, 2])
-                    .with_padding([1, 1])
-                    .init(device),
-            ),
+            Upsampling::Transposed => Self::Transposed(transposed_doubling(channels, device)),
             Upsampling::Nearest => Self::Nearest(convolution(channels, 3, 1, device)),
         }
     }
 
     fn forward(&self, input: Tensor<4>) -> Tensor<4> {
         match self {
-            Self::Transposed(conv) => {
-                let Some(bias) = &conv.bias else {
-                    unreachable!("`new` gives every layer a bias");
-                };
-                transposed_convolution(input, conv.weight.val(), bias.val(), LEAK)
-            }
+            Self::Transposed(conv) => doubled_by(conv, input),
             Self::Nearest(conv) => convolve_doubled(conv, input),
             Self::Same(conv) => convolve_leaky(conv, input),
         }

@@ -1,8 +1,11 @@
 //! Stages of a network, with their weights.
-use crate::layers::{Form, LEAK, NormedConv, convolution, convolve_as, depthwise, leaky};
+use crate::layers::{
+    Form, LEAK, NormedConv, convolution, convolve_as, depthwise, doubled_by, leaky,
+    transposed_doubling,
+};
 use crate::{LayerKind, Stage};
 use burn::module::Module;
-use burn::nn::conv::Conv2d;
+use burn::nn::conv::{Conv2d, ConvTranspose2d};
 use burn::tensor::{Device, Tensor};
 use normalight_kernels::depthwise_relu;
 
@@ -34,6 +37,8 @@ struct StageLayer {
 enum ToWidth {
     Biased(Conv2d),
     Normed(NormedConv),
+    /// It doubles the size itself.
+    Transposed(ConvTranspose2d),
 }
 
 /// Stages one after the other, on maps of `width` channels: what the first and what each of the others does to the size.
@@ -113,7 +118,7 @@ impl StageLayers {
             depthwise: layer.depthwise.clone(),
             to_width: match &layer.to_width {
                 ToWidth::Normed(normed) => ToWidth::Normed(normed.folded()),
-                biased @ ToWidth::Biased(_) => biased.clone(),
+                other @ (ToWidth::Biased(_) | ToWidth::Transposed(_)) => other.clone(),
             },
             upsampling: layer.upsampling,
         });
@@ -136,20 +141,22 @@ impl StageLayer {
         let spatial = kind
             .depthwise()
             .map(|size| depthwise(channels[0], size, stride, device));
-        let size = if kind == LayerKind::Convolution3 {
-            3
-        } else {
-            1
+        let size = match kind {
+            LayerKind::Convolution3 | LayerKind::Transposed4 => 3,
+            LayerKind::Separable3 | LayerKind::Separable5 | LayerKind::Pointwise => 1,
         };
+        let doubles = resize == Resize::Double;
+        let transposed = doubles && kind == LayerKind::Transposed4;
         // Where there is a depthwise convolution it has the stride.
         let stride = if spatial.is_some() { 1 } else { stride };
         Self {
             depthwise: spatial,
-            to_width: match normalised {
-                true => ToWidth::Normed(NormedConv::new(channels, size, stride, form, device)),
-                false => ToWidth::Biased(convolution(channels, size, stride, device)),
+            to_width: match (transposed, normalised) {
+                (true, _) => ToWidth::Transposed(transposed_doubling(channels, device)),
+                (_, true) => ToWidth::Normed(NormedConv::new(channels, size, stride, form, device)),
+                _ => ToWidth::Biased(convolution(channels, size, stride, device)),
             },
-            upsampling: if resize == Resize::Double { 2 } else { 1 },
+            upsampling: if doubles { 2 } else { 1 },
         }
     }
 
@@ -161,6 +168,7 @@ impl StageLayer {
         match &self.to_width {
             ToWidth::Biased(conv) => convolve_as(conv, input, self.upsampling, LEAK),
             ToWidth::Normed(normed) => leaky(normed.forward_enlarged(input, self.upsampling)),
+            ToWidth::Transposed(conv) => doubled_by(conv, input),
         }
     }
 }

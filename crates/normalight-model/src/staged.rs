@@ -21,11 +21,13 @@ pub enum LayerKind {
     Separable5,
     /// A 1x1 convolution.
     Pointwise,
+    /// A 4x4 transposed convolution where the size doubles, a 3x3 convolution elsewhere.
+    Transposed4,
 }
 
 impl LayerKind {
-    /// All of them.
-    pub const ALL: [Self; 4] = [
+    /// Those among which a search chooses.
+    pub const SEARCHED: [Self; 4] = [
         Self::Convolution3,
         Self::Separable3,
         Self::Separable5,
@@ -37,14 +39,14 @@ impl LayerKind {
         match self {
             Self::Separable3 => Some(3),
             Self::Separable5 => Some(5),
-            Self::Convolution3 | Self::Pointwise => None,
+            Self::Convolution3 | Self::Pointwise | Self::Transposed4 => None,
         }
     }
 
     /// Side of the square of pixels that one output pixel sees.
     pub fn side(self) -> usize {
         match self {
-            Self::Convolution3 => 3,
+            Self::Convolution3 | Self::Transposed4 => 3,
             Self::Pointwise => 1,
             Self::Separable3 | Self::Separable5 => self.depthwise().unwrap_or(1),
         }
@@ -85,6 +87,13 @@ impl Stage {
 
     fn validate(&self) -> Result<(), ModelError> {
         within("width of a stage", self.width, 1, MAX_WIDTH)?;
+        if self.kind == LayerKind::Transposed4 && self.normalised {
+            return Err(ModelError::Architecture {
+                what: "a stage of transposed convolutions".into(),
+                found: "normalised".into(),
+                expected: "not normalised".into(),
+            });
+        }
         within("layers of a stage", self.layers, 1, MAX_LAYERS)
     }
 }
@@ -192,9 +201,11 @@ impl StagedNormal {
                 let change = first(place);
                 for layer in 0..stage.layers {
                     // A layer that halves sees pixels of the size before, one that doubles those of the size after
-                    // unless it is depthwise, which comes before.
+                    // unless it is depthwise, which comes before, or itself doubles.
                     let grows = layer == 0 && change < 0;
-                    let seen = match grows && stage.kind.depthwise().is_none() {
+                    let small =
+                        stage.kind.depthwise().is_some() || stage.kind == LayerKind::Transposed4;
+                    let seen = match grows && !small {
                         true => halvings - 1,
                         false => halvings,
                     };
@@ -256,7 +267,7 @@ impl StagedLight {
         within("stages of features", self.features.len(), 1, 5)?;
         within("stages of classifier", self.classifier.len(), 1, 4)?;
         // Each halving leaves whole pixels, the last at least one.
-        within("halvings", self.halvings(), 1, 5)?;
+        within("halvings", self.halvings(), 1, 7)?;
         within("side of the last maps", self.last(input_size).0, 1, 16)?;
         for stage in self.features.iter().chain(&self.classifier) {
             stage.validate()?;

@@ -1,6 +1,6 @@
 //! Networks of stages.
 use crate::graph::{GraphBuilder, Value};
-use normalight_model::{ModelError, Stage};
+use normalight_model::{LayerKind, ModelError, Stage};
 
 /// What the first layer of a stage does to the size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +60,9 @@ impl GraphBuilder<'_> {
         (depthwise, resize): (Option<usize>, Resize),
         input: &Value,
     ) -> Result<Value, ModelError> {
+        if resize == Resize::Double && stage.kind == LayerKind::Transposed4 {
+            return self.transposed_layer(&format!("{path}.to_width.Transposed"), input);
+        }
         let stride = if resize == Resize::Halve { 2 } else { 1 };
         // Where there is a depthwise convolution it has the stride.
         let (mut value, stride) = match depthwise {

@@ -58,8 +58,9 @@ fn staged_normal() -> NormalBody {
         down: vec![
             stage(4, 2, LayerKind::Separable3, false),
             stage(6, 1, LayerKind::Separable5, true),
+            stage(6, 1, LayerKind::Convolution3, false),
         ],
-        up: Vec::new(),
+        up: vec![stage(5, 2, LayerKind::Transposed4, false)],
         meeting: Meeting::MaxMean,
         exchanges: 2,
         fused: vec![

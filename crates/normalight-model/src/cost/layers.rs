@@ -56,6 +56,14 @@ pub(super) fn conv(from: usize, to: usize, area: usize) -> Cost {
     }
 }
 
+/// A 4x4 transposed convolution with bias that doubles the size, and that many output pixels.
+pub(super) fn transposed(from: usize, to: usize, area: usize) -> Cost {
+    Cost {
+        parameters: 16 * from * to + to,
+        multiply_adds: (4 * from * to * area) as u64,
+    }
+}
+
 /// A 1x1 convolution with bias and that many output pixels.
 pub(super) fn biased(from: usize, to: usize, area: usize) -> Cost {
     Cost {

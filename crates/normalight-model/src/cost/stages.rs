@@ -1,5 +1,5 @@
 //! What stages cost.
-use super::layers::{Cost, biased, conv};
+use super::layers::{Cost, biased, conv, transposed};
 use crate::{LayerKind, PixelStage, Stage, StagedNormal};
 
 /// Stages in a row for pictures of `area` pixels: `halvings` says how often the first layer of the first stage and of the
@@ -25,13 +25,13 @@ pub(super) fn row(
             };
             // A depthwise convolution comes before the size is doubled.
             let spatial = if layer == 0 { before.min(area) } else { area };
+            let widths = [channels, stage.width];
+            let doubles = layer == 0 && before < area;
             cost = cost
-                + one(
-                    kind,
-                    stage.normalised,
-                    [channels, stage.width],
-                    (spatial, area),
-                );
+                + match kind {
+                    LayerKind::Transposed4 if doubles => transposed(channels, stage.width, area),
+                    kind => one(kind, stage.normalised, widths, (spatial, area)),
+                };
             channels = stage.width;
         }
     }
@@ -45,7 +45,7 @@ fn one(
     (spatial, area): (usize, usize),
 ) -> Cost {
     let to_width = match kind {
-        LayerKind::Convolution3 => conv(from, to, area),
+        LayerKind::Convolution3 | LayerKind::Transposed4 => conv(from, to, area),
         _ => biased(from, to, area),
     };
     let size = kind.depthwise().unwrap_or(0);

@@ -37,7 +37,7 @@ impl Default for NetworkSpace {
             widths: vec![8, 16, 24, 32, 48, 64, 96, 128],
             most_layers: 4,
             most_halvings: 3,
-            kinds: LayerKind::ALL.to_vec(),
+            kinds: LayerKind::SEARCHED.to_vec(),
             most_exchanges: 1,
             pixel_widths: vec![0, 8, 16, 32],
             hidden: vec![32, 64, 128, 256],
