@@ -10,6 +10,7 @@ use normalight_synth::BitDepth;
 use normalight_train::Network;
 use std::fmt;
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 use std::str::FromStr;
 
 /// Where to compute.
@@ -271,5 +272,28 @@ impl fmt::Display for LeaveOut {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (first, last) = (self.photographs.start(), self.photographs.end());
         write!(formatter, "{}:{first}-{last}", self.object)
+    }
+}
+
+/// A training and how it is called: `paper=runs/paper-normal`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct NamedRun {
+    pub(crate) name: String,
+    pub(crate) folder: PathBuf,
+}
+
+impl FromStr for NamedRun {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once('=') {
+            Some((name, folder)) if !name.is_empty() && !folder.is_empty() => Ok(Self {
+                name: name.to_owned(),
+                folder: folder.into(),
+            }),
+            _ => Err(
+                "a name and a training's folder are expected: paper=runs/paper-normal".to_owned(),
+            ),
+        }
     }
 }

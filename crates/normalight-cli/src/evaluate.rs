@@ -6,14 +6,15 @@ mod store;
 
 use crate::Outcome;
 use crate::args::EvaluateArgs;
+use crate::choices::NamedRun;
 use crate::interrupt;
 use crate::progress;
 use crate::settings::Estimation;
 use crate::terminal::print;
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use benchmark::{Source, sources};
 use facts::Evaluation;
-use normalight_evaluate::{Disturbance, Method, Photographs, Report, Table, Trial};
+use normalight_evaluate::{Disturbance, Method, Photographs, Report, Table, Training, Trial};
 use normalight_io::OutputFolder;
 use objects::Work;
 use std::path::Path;
@@ -32,6 +33,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
             );
         }
     }
+    let trainings = args.curves.iter().map(training).collect::<Result<_>>()?;
     let store = args.report.as_deref().map(Store::open).transpose()?;
     let estimation = Estimation::open(&args.estimation)?;
     let methods = methods(args);
@@ -73,6 +75,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
             facts: evaluation.facts(),
             pictures: store.all_pictures(&trials),
             trials,
+            trainings,
         };
         store.write(&report, bytes.clone())?;
     }
@@ -84,6 +87,14 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
     } else {
         Outcome::Done
     })
+}
+
+/// The course of a training.
+fn training(run: &NamedRun) -> Result<Training> {
+    let path = run.folder.join("curves.csv");
+    let text = std::fs::read_to_string(&path)
+        .with_context(|| format!("{} cannot be read", path.display()))?;
+    Ok(Training::read(&run.name, &text)?)
 }
 
 /// The methods that are asked for, each once.

@@ -15,6 +15,18 @@ pub enum EvaluateError {
     /// A photograph that cannot be disturbed as asked.
     #[error("a photograph cannot be disturbed: {0}")]
     Disturbance(String),
+    /// What should be the course of a training.
+    #[error(
+        "{name}: line {line} of its curves: found {found:?}, a course with step, validation_degrees and seconds is expected"
+    )]
+    Curves {
+        /// The training.
+        name: String,
+        /// Counted from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
     /// A part of the report that cannot be made.
     #[error("the report cannot be made: {0}")]
     Report(String),

@@ -1,3 +1,4 @@
+use crate::Reliability;
 use serde::{Deserialize, Serialize};
 
 /// Errors and time of one object, or their means over several.
@@ -19,6 +20,13 @@ pub struct Figures {
     pub intensity_error: Option<f64>,
     /// Seconds of estimating, reading left out.
     pub seconds: f64,
+    /// Multiply-adds of the networks; `None` without any.
+    #[serde(default)]
+    pub multiply_adds: Option<f64>,
+    /// Most memory that the process held meanwhile, in bytes, program and photographs included; `None` where the system does
+    /// not tell, or others worked beside.
+    #[serde(default)]
+    pub peak_memory: Option<f64>,
 }
 
 /// The figures of one object.
@@ -35,6 +43,9 @@ pub struct ObjectFigures {
     /// Its errors and time.
     #[serde(flatten)]
     pub figures: Figures,
+    /// Errors that the estimate expects against those that were found; empty where it expects none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reliability: Vec<Reliability>,
 }
 
 impl Figures {
@@ -60,6 +71,8 @@ impl Figures {
             light_degrees: known(|figures| figures.light_degrees),
             intensity_error: known(|figures| figures.intensity_error),
             seconds: mean(|figures| figures.seconds),
+            multiply_adds: known(|figures| figures.multiply_adds),
+            peak_memory: known(|figures| figures.peak_memory),
         })
     }
 }
@@ -83,7 +96,10 @@ mod tests {
                 light_degrees,
                 intensity_error: light_degrees.map(|_| 0.1),
                 seconds: 2.0,
+                multiply_adds: None,
+                peak_memory: Some(1e9),
             },
+            reliability: Vec::new(),
         }
     }
 

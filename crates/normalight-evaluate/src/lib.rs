@@ -10,8 +10,10 @@ mod method;
 mod object;
 mod photographs;
 mod published;
+mod reliability;
 mod report;
 mod table;
+mod training;
 
 pub use disturbance::Disturbance;
 pub use error::EvaluateError;
@@ -21,5 +23,7 @@ pub use method::Method;
 pub use object::BenchmarkObject;
 pub use photographs::Photographs;
 pub use published::{DILIGENT, PAPER_BY_IMAGES, PUBLISHED, Published};
+pub use reliability::Reliability;
 pub use report::{Fact, MethodPictures, ObjectPictures, Report, errors_picture, normals_picture};
 pub use table::{Failure, Spread, Table, Trial};
+pub use training::{Training, TrainingPoint};

@@ -1,4 +1,4 @@
-use crate::{BenchmarkObject, EvaluateError, Figures, Method, ObjectFigures};
+use crate::{BenchmarkObject, EvaluateError, Figures, Method, ObjectFigures, Reliability};
 use normalight_core::{
     Light, NormalMap, intensity_error, least_squares_normals, mean_light_error, normal_error,
     robust_normals, uncalibrated_factorisation,
@@ -43,17 +43,23 @@ pub fn evaluate_object(
         };
         pollster::block_on(estimator.estimate(input, settings, observer))
     };
+    let mut expected = None;
     let start = Instant::now();
     let (normals, found) = match method {
         Method::Uncalibrated => {
             let estimate = estimate(None)?;
+            expected = estimate.normal_errors;
             (estimate.normals, Some(estimate.lights))
         }
         Method::EstimatedLeastSquares => {
             let found = estimate(None)?.lights;
             (least_squares_normals(stack, mask, &found)?.0, Some(found))
         }
-        Method::Calibrated => (estimate(Some(lights))?.normals, None),
+        Method::Calibrated => {
+            let estimate = estimate(Some(lights))?;
+            expected = estimate.normal_errors;
+            (estimate.normals, None)
+        }
         Method::LeastSquares => (least_squares_normals(stack, mask, lights)?.0, None),
         Method::Robust => (robust_normals(stack, mask, lights)?.0, None),
         Method::Factorisation => {
@@ -62,7 +68,24 @@ pub fn evaluate_object(
         }
     };
     let seconds = start.elapsed().as_secs_f64();
-    Measured::new(object, normals, found, seconds)
+    let mut measured = Measured::new(object, normals, found, seconds)?;
+    let ObjectFigures {
+        figures,
+        reliability,
+        ..
+    } = &mut measured.figures;
+    if let [_, true] = method.networks() {
+        let input = EstimateInput {
+            stack,
+            mask,
+            lights: method.knows_lights().then_some(&lights[..]),
+        };
+        figures.multiply_adds = Some(estimator.multiply_adds(input, settings) as f64);
+    }
+    if let Some(expected) = expected {
+        *reliability = Reliability::classes(&expected, &measured.normals, &object.normals, mask);
+    }
+    Ok(measured)
 }
 
 impl Measured {
@@ -98,11 +121,21 @@ impl Measured {
                     light_degrees,
                     intensity_error,
                     seconds,
+                    multiply_adds: None,
+                    peak_memory: None,
                 },
+                reliability: Vec::new(),
             },
             normals,
             lights,
         })
+    }
+
+    /// With the most memory that the process held meanwhile, in bytes.
+    #[must_use]
+    pub fn with_peak_memory(mut self, bytes: Option<u64>) -> Self {
+        self.figures.figures.peak_memory = bytes.map(|bytes| bytes as f64);
+        self
     }
 
     /// The same lights with normals by least squares: what [`Method::EstimatedLeastSquares`] finds, of what
@@ -114,7 +147,11 @@ impl Measured {
         let start = Instant::now();
         let lights = self.lights.as_ref().unwrap_or(&object.lights);
         let (normals, _) = least_squares_normals(&object.stack, &object.mask, lights)?;
-        let seconds = self.figures.figures.seconds + start.elapsed().as_secs_f64();
-        Self::new(object, normals, self.lights.clone(), seconds)
+        let before = self.figures.figures;
+        let seconds = before.seconds + start.elapsed().as_secs_f64();
+        let mut found = Self::new(object, normals, self.lights.clone(), seconds)?;
+        found.figures.figures.multiply_adds = before.multiply_adds;
+        found.figures.figures.peak_memory = before.peak_memory;
+        Ok(found)
     }
 }

@@ -3,11 +3,13 @@ mod charts;
 mod html;
 mod markdown;
 mod pictures;
+mod reliability;
 mod rows;
+mod trainings;
 
 pub use pictures::{MethodPictures, ObjectPictures, errors_picture, normals_picture};
 
-use crate::{EvaluateError, Table, Trial};
+use crate::{EvaluateError, Table, Training, Trial};
 use serde::Serialize;
 
 /// What was measured with what, in the order in which it is said.
@@ -28,6 +30,8 @@ pub struct Report {
     pub trials: Vec<Trial>,
     /// Pictures of the objects.
     pub pictures: Vec<ObjectPictures>,
+    /// Trainings whose course is shown.
+    pub trainings: Vec<Training>,
 }
 
 impl Report {

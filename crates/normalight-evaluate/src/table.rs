@@ -1,4 +1,4 @@
-use crate::{Disturbance, Figures, Method, ObjectFigures, Photographs};
+use crate::{Disturbance, Figures, Method, ObjectFigures, Photographs, Reliability};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -110,6 +110,7 @@ impl Table {
             if let (Some(first), Some(figures)) = (measured.first(), figures) {
                 objects.push(ObjectFigures {
                     figures,
+                    reliability: Reliability::mean(measured.iter().map(|one| &one.reliability[..])),
                     ..(*first).clone()
                 });
             }
@@ -134,6 +135,11 @@ impl Table {
             objects,
             failures,
         }
+    }
+
+    /// Errors that the estimates expect against those that were found, over all objects; empty where one expects none.
+    pub fn reliability(&self) -> Vec<Reliability> {
+        Reliability::mean(self.objects.iter().map(|object| &object.reliability[..]))
     }
 
     /// What it is of, in words.
@@ -257,6 +263,8 @@ mod tests {
             light_degrees: Some(degrees / 2.0),
             intensity_error: Some(0.1),
             seconds: 1.0,
+            multiply_adds: None,
+            peak_memory: None,
         };
         Trial {
             object: object.to_owned(),
@@ -272,6 +280,7 @@ mod tests {
                 pixels: 100,
                 without_truth: 7,
                 figures,
+                reliability: Vec::new(),
             }),
         }
     }

@@ -9,7 +9,8 @@ use normalight_core::{
 use normalight_evaluate::{BenchmarkObject, EvaluateError, Method, evaluate_object};
 use normalight_model::{
     EstimateInput, EstimateSettings, Estimator, LightArchitecture, LightNetwork, ModelError,
-    NoopObserver, NormalArchitecture, NormalNetwork, Observer, Progress, Weights,
+    NoopObserver, NormalArchitecture, NormalNetwork, Observer, Progress, Weights, light_cost,
+    normal_cost,
 };
 use normalight_synth::{Framing, Renderer, SceneRecipe};
 use std::collections::BTreeMap;
@@ -83,6 +84,10 @@ fn figures_are_the_errors_of_the_pipeline() {
     let intensity = intensity_error(&estimate.lights, &object.lights).unwrap();
     assert_eq!(figures.intensity_error.unwrap() as f32, intensity);
     assert!(figures.seconds > 0.0);
+    // Two passes of the light network over two views; the normal network before the refit, and over four views after it.
+    let lights = 2 * 2 * light_cost(&LightArchitecture::plain()).multiply_adds(4);
+    let normals = 5 * normal_cost(&NormalArchitecture::plain(), 32 * 32).multiply_adds(4);
+    assert_eq!(figures.multiply_adds, Some((lights + normals) as f64));
 }
 
 #[test]
@@ -109,6 +114,12 @@ fn true_lights_are_given_and_not_judged() {
     let normals = normal_error(&estimate.normals, &object.normals, &object.mask).unwrap();
     let radians = found.figures.normal_degrees.to_radians() as f32;
     assert!((radians - normals.mean).abs() < 1e-5);
+    // Every pixel is in one class of expected errors.
+    let shares = found.reliability.iter().map(|class| class.share);
+    assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9);
+    let means = found.reliability.iter();
+    let mean: f64 = means.map(|class| class.share * class.found_degrees).sum();
+    assert!((mean - found.figures.normal_degrees).abs() < 1e-3);
     assert_eq!(found.figures.light_degrees, None);
     assert_eq!(found.figures.intensity_error, None);
 }

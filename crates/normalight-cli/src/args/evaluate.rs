@@ -1,7 +1,7 @@
 //! `evaluate`.
 
 use crate::args::EstimationArgs;
-use crate::choices::{LeaveOut, MethodChoice};
+use crate::choices::{LeaveOut, MethodChoice, NamedRun};
 use clap::Args;
 use normalight_evaluate::Disturbance;
 use std::num::NonZeroUsize;
@@ -52,6 +52,14 @@ pub(crate) struct EvaluateArgs {
     /// else.
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
+    /// Show in the report how a training went: a name for it, and its folder.
+    #[arg(
+        long,
+        value_name = "NAME=RUN",
+        requires = "report",
+        value_delimiter = ','
+    )]
+    pub(crate) curves: Vec<NamedRun>,
     /// Objects to measure side by side. Seconds can be compared with one only.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) jobs: NonZeroUsize,

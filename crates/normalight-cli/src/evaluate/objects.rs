@@ -2,6 +2,7 @@
 use super::benchmark::Source;
 use super::store::Store;
 use crate::args::EvaluateArgs;
+use crate::bench::{forget_peak_memory, peak_memory};
 use crate::interrupt;
 use crate::progress::ProgressObserver;
 use crate::settings::{Estimation, describe};
@@ -128,7 +129,12 @@ impl Work<'_> {
         let mut observer = ProgressObserver::new(String::new(), true);
         let measured = match (trial.method, &*networks) {
             (Method::EstimatedLeastSquares, Some(found)) => found.with_least_squares(object),
-            (method, _) => evaluate_object(estimator, object, method, *settings, &mut observer),
+            (method, _) => {
+                let alone = self.args.jobs.get() == 1 && forget_peak_memory();
+                let found = evaluate_object(estimator, object, method, *settings, &mut observer);
+                let peak = alone.then(peak_memory).flatten();
+                found.map(|found| found.with_peak_memory(peak))
+            }
         };
         let measured = match measured {
             Ok(measured) => measured,

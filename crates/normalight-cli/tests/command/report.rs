@@ -76,10 +76,50 @@ fn every_method_in_one_report() {
     );
     // Of each object the truth, and of six methods normals and errors.
     assert_eq!(page.matches("data:image/png").count(), 2 * (1 + 6 * 2));
-    // The light maps of the three methods that find lights; two charts.
-    assert_eq!(page.matches("data:image/svg").count(), 2 * 3 + 2);
+    // The light maps of the three methods that find lights; errors against photographs and against what was expected.
+    assert_eq!(page.matches("data:image/svg").count(), 2 * 3 + 3);
+    assert!(page.contains("<h2>Errors to expect</h2>"));
+    for table in tables {
+        let networks = ["uncalibrated", "calibrated"].contains(&table["method"].as_str().unwrap());
+        let figures = &table["objects"][0];
+        let expected = figures["reliability"].as_array().map_or(0, Vec::len);
+        assert_eq!(expected > 0, networks, "{table}");
+        let counted = networks || table["method"] == "estimated-least-squares";
+        assert_eq!(figures["multiply_adds"].is_null(), !counted, "{table}");
+        // Others worked beside.
+        assert!(figures["peak_memory"].is_null());
+    }
     let rows = std::fs::read_to_string(out.join("trials.csv")).unwrap();
     assert_eq!(rows.lines().count(), 1 + 2 * 12);
+}
+
+#[test]
+fn courses_of_trainings_stand_in_the_report() {
+    let (place, folder, out) = benchmark();
+    let run = place.path().join("run");
+    std::fs::create_dir(&run).unwrap();
+    let curves = |folder: &Path| format!("paper <b>={}", path(folder));
+    let asked = |run: &Path| {
+        let curves = curves(run);
+        let more = ["--methods", "least-squares", "--curves", &curves];
+        report(&folder, &out, &more)
+    };
+    // Before anything is measured.
+    fails(asked(&run), &["curves.csv"]);
+    assert!(!out.exists());
+    let csv = "step,loss,validation_degrees,learning_rate,seconds\n\
+               500,0.5,12.5,0.001,1800\n1000,0.4,11.25,0.0005,3600\n";
+    std::fs::write(run.join("curves.csv"), csv).unwrap();
+    said(asked(&run));
+    let page = std::fs::read_to_string(out.join("index.html")).unwrap();
+    let markdown = std::fs::read_to_string(out.join("report.md")).unwrap();
+    assert!(page.contains("<h2>Trainings</h2>") && page.contains("paper &lt;b&gt;"));
+    assert!(
+        markdown.contains("| 1000 | 1.00 | 11.25 | 11.25 |"),
+        "{markdown}"
+    );
+    std::fs::write(run.join("curves.csv"), "step,loss\n").unwrap();
+    fails(asked(&run), &["line 1", "validation_degrees"]);
 }
 
 #[test]
@@ -93,6 +133,11 @@ fn only_what_is_missing_is_measured_again() {
         .iter()
         .map(|name| written(&out.join("trials"), name))
         .collect();
+    if cfg!(target_os = "linux") {
+        let trial = read_json(&out.join("trials").join(&trials[0]));
+        let peak = trial["trial"]["result"]["Ok"]["peak_memory"].as_f64();
+        assert!(peak.is_some_and(|bytes| bytes > 1e6), "{trial}");
+    }
     let first = std::fs::read(out.join("trials.csv")).unwrap();
     // A method more, one trial missing, one object changed.
     std::fs::remove_file(out.join("trials").join(&trials[0])).unwrap();

@@ -1,8 +1,8 @@
 //! The report as one page that needs no other file.
-use super::Report;
-use super::charts::{Chart, by_images};
+use super::charts::{Chart, by_expectation, by_hours, by_images};
 use super::pictures::{MOST_DEGREES, MethodPictures, ObjectPictures, colour};
 use super::rows::{Grid, Quantity, by_object, disturbed, summary};
+use super::{Report, reliability, trainings};
 use crate::published::PUBLISHED;
 use crate::{EvaluateError, Table};
 use base64::Engine as _;
@@ -33,6 +33,8 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
             Some(chart.map(|chart| (title, chart)))
         })
         .collect::<Result<_, _>>()?;
+    let expectation = by_expectation(tables)?;
+    let hours = by_hours(&report.trainings)?;
     let by_object = by_object(tables);
     let listed = |name: &str| {
         let mut rows = by_object.iter().flat_map(|grid| &grid.rows);
@@ -61,15 +63,18 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
                         section {
                             h2 { (title) }
                             // Its figures stand in the tables above.
-                            figure {
-                                img class="chart" src=(data("image/svg+xml", chart.svg.as_bytes())) alt=(format!("{title}, a line for each method; the figures stand in the table of all methods"));
-                                figcaption {
-                                    ul.legend { @for (name, colour) in &chart.legend { li { span style=(format!("background: {colour}")) {} (name) } } }
-                                }
-                            }
+                            (drawn(chart, &format!("{title}, a line for each method; the figures stand in the table of all methods")))
                         }
                     }
+                    (grid(&reliability::grid(tables)))
+                    @if let Some(chart) = &expectation {
+                        (drawn(chart, "Errors that were found against those that were expected; the figures stand in the table above"))
+                    }
                     (grid(&disturbed(tables)))
+                    (grid(&trainings::grid(&report.trainings)))
+                    @if let Some(chart) = &hours {
+                        (drawn(chart, "Validation errors of the trainings over their hours; the last figures stand in the table above"))
+                    }
                     @if !report.pictures.is_empty() { (objects(&report.pictures)) }
                     (failures(tables))
                     @if !published.is_empty() {
@@ -95,6 +100,17 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
         }
     };
     Ok(page.into_string())
+}
+
+fn drawn(chart: &Chart, words: &str) -> Markup {
+    html! {
+        figure {
+            img class="chart" src=(data("image/svg+xml", chart.svg.as_bytes())) alt=(words);
+            figcaption {
+                ul.legend { @for (name, colour) in &chart.legend { li { span style=(format!("background: {colour}")) {} (name) } } }
+            }
+        }
+    }
 }
 
 /// A table that sorts by its heads.

@@ -1,6 +1,6 @@
 //! The tables for READMEs and papers.
-use super::Report;
 use super::rows::{Grid, by_object, disturbed, summary};
+use super::{Report, reliability, trainings};
 use crate::Table;
 use std::fmt::Write as _;
 
@@ -13,7 +13,9 @@ pub(super) fn text(report: &Report, tables: &[Table]) -> String {
     for grid in by_object(tables) {
         write(&mut text, &grid);
     }
+    write(&mut text, &reliability::grid(tables));
     write(&mut text, &disturbed(tables));
+    write(&mut text, &trainings::grid(&report.trainings));
     text
 }
 

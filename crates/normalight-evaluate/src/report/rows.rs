@@ -50,6 +50,8 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
         "Lights",
         "Intensities",
         "Seconds",
+        "Multiply-adds",
+        "Memory",
         "Objects",
     ];
     let share = |share: f64| format!("{:.1} %", 100.0 * share);
@@ -82,6 +84,8 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
                 ),
                 known(mean.intensity_error, 3),
                 format!("{:.2}", mean.seconds),
+                known(mean.multiply_adds.map(|count| count / 1e9), 1),
+                known(mean.peak_memory.map(|bytes| bytes / 1e9), 2),
             ]);
         }
         cells.resize(heads.len() - 1, "-".to_owned());
@@ -98,7 +102,8 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
     Grid {
         title: "All methods".to_owned(),
         note: "Means over the objects, each counting the same: errors of normals and light directions in degrees, relative \
-               errors of intensities, shares of pixels whose normal is less than so many degrees off. ± is the standard \
+               errors of intensities, shares of pixels whose normal is less than so many degrees off; seconds and most memory of the \
+               process (gigabytes) for an object, multiply-adds of its networks (thousand millions). ± is the standard \
                deviation over random choices of photographs."
             .to_owned(),
         rows: rows.collect(),
@@ -291,12 +296,15 @@ pub(super) fn csv(trials: &[Trial]) -> Result<Vec<u8>, EvaluateError> {
             "light_degrees",
             "intensity_error",
             "seconds",
+            "multiply_adds",
+            "peak_memory_bytes",
             "failure",
         ])
         .map_err(failed)?;
     let number = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
     // What follows says nothing, and would differ where figures come from files.
     let real = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
+    let whole = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.0}"));
     for trial in trials {
         let measured = trial.result.as_ref().ok();
         let count = |value: fn(&crate::ObjectFigures) -> usize| {
@@ -326,6 +334,8 @@ pub(super) fn csv(trials: &[Trial]) -> Result<Vec<u8>, EvaluateError> {
                 real(figures.and_then(|figures| figures.light_degrees)),
                 real(figures.and_then(|figures| figures.intensity_error)),
                 figure(|figures| figures.seconds),
+                whole(figures.and_then(|figures| figures.multiply_adds)),
+                whole(figures.and_then(|figures| figures.peak_memory)),
                 trial.result.as_ref().err().cloned().unwrap_or_default(),
             ])
             .map_err(failed)?;
