@@ -217,7 +217,8 @@ test("at 360 pixels no words of ours are cut off", async () => {
 
 test("a run says how long it takes, ignores a drop in words, and is not lost unasked", async () => {
   const { page: tab } = page;
-  await page.quality("fast");
+  // Long enough for a drop, a reload and an answer.
+  await page.quality("default");
   await page.upload(photographs);
   await page.thumbnails(photographs.length);
   await tab.click("#start");

@@ -31,13 +31,6 @@ async function dotAt(index) {
   return /** @type {const} */ ([box.x + box.width / 2, box.y + box.height / 2]);
 }
 
-/** Waits for the end of a run that the page started by itself. */
-async function finished() {
-  await tab().waitForSelector("#cancel:visible");
-  await tab().waitForSelector("#start:visible");
-  assert.equal(await tab().isVisible("#run-problem"), false);
-}
-
 test("good and bad places of the lamp are shown, with the words of the check", async () => {
   assert.match(captions[0] ?? "", /^✓ All around/);
   assert.match(captions[1] ?? "", /^✗ From one side.*All lamps came from the left/);
@@ -107,8 +100,8 @@ test("a dragged light, a typed one and one left out give other normals, without 
   await tab().click("#lights tr:nth-child(3) .light-name");
   await tab().uncheck('[name="light-used"]');
   assert.equal(await words(), "2 lights changed, 1 photograph left out");
-  await tab().click("#lights-again");
-  await finished();
+  await page.during(() => tab().click("#lights-again"));
+  assert.equal(await tab().isVisible("#run-problem"), false);
   assert.match((await tab().textContent("#facts")) ?? "", /15 of 192/);
   assert.equal(/lights \d/.test((await tab().textContent("#seconds")) ?? ""), false);
   assert.notDeepEqual(await page.download("normals.npy"), before);

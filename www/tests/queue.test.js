@@ -34,9 +34,7 @@ const pressed = () => tab.locator('#queue-list [aria-pressed="true"]').allTextCo
 
 /** Estimates all and waits for the end. */
 async function estimateAll() {
-  await tab.click("#estimate-all");
-  await tab.waitForSelector("#cancel:visible");
-  await tab.waitForSelector("#start:visible");
+  await page.during(() => tab.click("#estimate-all"));
 }
 
 test("all stacks are estimated one after the other, and one that fails says why", async () => {

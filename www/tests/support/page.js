@@ -165,9 +165,25 @@ export class Page {
   /** Presses the button and waits for the end; the words of a failure, or nothing. */
   async estimate() {
     await this.page.waitForSelector("#start:enabled");
-    await this.page.click("#start");
-    await this.page.waitForSelector("#start:visible");
+    await this.during(() => this.page.click("#start"));
     return (await this.page.isVisible("#run-problem")) ? await this.page.textContent("#run-problem") : "";
+  }
+
+  /**
+   * Does what begins a run and waits for its end, which may come before anybody could see that it has begun: something is said
+   * then, and what was said before is taken away.
+   * @param {() => Promise<unknown>} begin
+   */
+  async during(begin) {
+    const says = ["status", "run-problem"];
+    await this.page.evaluate((says) => {
+      for (const id of says) document.getElementById(id)?.replaceChildren();
+    }, says);
+    await begin();
+    await this.page.waitForFunction((says) => {
+      const isSaid = says.some((id) => document.getElementById(id)?.textContent);
+      return isSaid && !document.getElementById("start")?.hidden;
+    }, says);
   }
 
   /** Downloads a file of the result. @param {string} name */
