@@ -18,7 +18,7 @@ const tab = page.page;
 test("what large photographs cost is said, and they are taken at a quarter of their size", async () => {
   await page.upload([...large, squareMask(SIDE / 4, 24)]);
   await tab.waitForSelector(
-    '#large-words:has-text("3 photographs of 4.0 megapixels: about 0.9 GB of memory; about 4 min")',
+    '#large-words:has-text("3 photographs of 4.0 megapixels: about 0.9 GB of memory; about 2 min")',
   );
   assert.ok(await tab.isChecked('input[name="size"][value="1"]'));
   await page.thumbnails(large.length + 1);

@@ -32,9 +32,9 @@ export function memoryHere(): number {
 
 /**
  * Seconds for a megapixel of one photograph with `fast`, where the object fills half of the frame. Measured in the module
- * on one core: 48 s for 8 photographs of 0.26 megapixels. Other computers are faster or slower; see {@link Speed}.
+ * with two threads: 16 to 20 s for 8 photographs of 0.26 megapixels. Other computers are faster or slower; see {@link Speed}.
  */
-const SECONDS = 20;
+const SECONDS = 8;
 
 /** How many times longer a quality takes, as the page says beside it. */
 const LONGER: Record<Quality, number> = { fast: 1, default: 2, best: 6 };
