@@ -123,7 +123,7 @@ export class Engines {
     const gpu = await this.#gpu?.catch(() => undefined);
     if (gpu === undefined) return await this.#onCpu(...request);
     try {
-      return await gpu.estimate(...request);
+      return { ...(await gpu.estimate(...request)), threads: 1 };
     } catch (error) {
       if (Object(error).kind !== "device") throw error;
       this.#giveUpGpu(`The GPU failed (${messageOf(error)}), so the processor computes.`);
@@ -133,7 +133,8 @@ export class Engines {
 
   async #onCpu(...request: Request): Promise<Tasks["estimate"]["response"]> {
     this.#helpers ??= this.#startHelpers();
-    return await this.#cpu.estimate(...request, this.#helpers);
+    const found = await this.#cpu.estimate(...request, this.#helpers);
+    return { ...found, threads: 1 + this.#helpers.count };
   }
 
   /** Gives the memory of the networks back. */

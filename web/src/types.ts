@@ -1,6 +1,7 @@
 import type {
   ColorMode,
   FloatMap,
+  Estimate as Found,
   InputPlan,
   MeshFileFormat,
   NormalFormat,
@@ -20,7 +21,6 @@ export type {
   DerivedFile,
   DerivedReport,
   DerivedSettings,
-  Estimate,
   ExpectedErrors,
   FloatMap,
   InputPlan,
@@ -53,6 +53,12 @@ export type {
   TruthErrors,
   WeightHashes,
 } from "./generated.js";
+
+/** What was found in photographs. */
+export interface Estimate extends Found {
+  /** How many threads computed it: fewer than there might be where no workers could be started. One beside a GPU. */
+  readonly threads: number;
+}
 
 /** A file of the user (from an input or a drop), or one in memory. */
 export type StackFile = File | NamedFile;

@@ -59,6 +59,10 @@ test("one thread, several and the calling thread give the same", async () => {
     await assert.rejects(normalight.plan([]), { code: "closed", message: "this estimator was closed" });
   }
   const [first, second, third] = results;
+  assert.deepEqual(
+    results.map(({ threads }) => threads),
+    [1, 3, 1],
+  );
   assert.equal(first?.lights.length, 4);
   assert.deepEqual(first?.normalMap, second?.normalMap);
   assert.deepEqual(first?.normalMap, third?.normalMap);

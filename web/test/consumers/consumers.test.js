@@ -12,7 +12,7 @@ import { serve } from "../support/server.js";
 import { html, MAIN, Projects } from "./support/project.js";
 
 const run = promisify(execFile);
-const GOOD = "ok CPU (flex, WebAssembly), 3 images";
+const GOOD = "ok CPU (flex, WebAssembly), 3 lights, 2 threads";
 const PAGE = { "index.html": html("./main.js"), "main.js": MAIN() };
 const QUIET = /** @type {const} */ ({ logLevel: "error", server: { port: 0, host: "127.0.0.1" } });
 
@@ -136,10 +136,10 @@ test("no bundler, the package's files on the page's server and on another", asyn
 
 test("Node.js", async () => {
   const cwd = await projects.project("node", {
-    "main.js": `import { Normalight } from "normalight";
-const normalight = await Normalight.create();
-console.log(normalight.device.name);`,
+    "main.js": MAIN()
+      .replaceAll("document.title =", "const title =")
+      .replace("} catch", "  console.log(title);\n} catch"),
   });
   const { stdout } = await run(process.execPath, ["main.js"], { cwd });
-  assert.equal(stdout.trim(), "CPU (flex, WebAssembly)");
+  assert.equal(stdout.trim(), GOOD);
 });

@@ -21,9 +21,10 @@ const TOOLS = {
 export const MAIN = (from = "normalight") => `
 import { Normalight } from ${JSON.stringify(from)};
 try {
-  const normalight = await Normalight.create({ device: "cpu" });
-  const { images } = await normalight.plan(["a.png", "b.png", "c.png"].map((name) => ({ name, bytes: new Uint8Array() })));
-  document.title = \`ok \${normalight.device.name}, \${images.length} images\`;
+  const normalight = await Normalight.create({ device: "cpu", threads: 2 });
+  const ramp = (across, down) => ({ width: 32, height: 32, channels: 1, data: Uint8Array.from({ length: 1024 }, (_, pixel) => 40 + across * (pixel % 32) + down * (pixel >> 5)) });
+  const { lights, threads } = await normalight.estimate([ramp(3, 1), ramp(1, 3), ramp(2, 2)], { mask: "none", quality: "fast" });
+  document.title = \`ok \${normalight.device.name}, \${lights.length} lights, \${threads} threads\`;
 } catch (error) {
   document.title = \`failed \${error.name}: \${error.message}\`;
 }
