@@ -125,12 +125,13 @@ function lookAt(title: HTMLElement): void {
 
 /** @param taken how the page took the photographs, in words */
 function showFacts(estimate: Estimate, taken: string): void {
-  const { width, height, lights, mask, device, quality, trueErrors } = estimate;
+  // Results that an older version kept do not say how many.
+  const { width, height, lights, mask, device, threads = 1, quality, trueErrors } = estimate;
   const words = texts.result;
   const facts: [string, string][] = [
     [words.photographs, words.size(lights.length, width, height, taken)],
     [words.mask, words.maskOf(mask)],
-    [words.device, device],
+    [words.device, words.deviceOf(device, threads)],
     [words.quality, words.qualityOf(quality)],
     [words.expected, errorWords(estimate)],
     ...(trueErrors ? [[words.errors, words.errorsOf(trueErrors)] as [string, string]] : []),
