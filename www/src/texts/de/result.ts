@@ -22,7 +22,7 @@ export const result: typeof en = {
   maskOf: ({ source, words, pixels }) =>
     `${source === "file" ? words : masks[source]}, ${whole(pixels)} Pixel`,
   device: "Gerät",
-  deviceOf: (device, threads) => (threads > 1 ? `${device}, ${threads} Threads` : device),
+  deviceOf: (device, threads) => (threads > 1 ? `${device} · ${threads} Threads` : device),
   quality: "Qualität",
   qualityOf: (quality) => settings[quality],
   expected: "Zu erwartende Fehler",

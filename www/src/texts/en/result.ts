@@ -15,7 +15,7 @@ export const result = {
   mask: "Mask",
   maskOf: ({ words, pixels }: MaskReport) => `${words}, ${whole(pixels)} pixels`,
   device: "Device",
-  deviceOf: (device: string, threads: number) => (threads > 1 ? `${device}, ${threads} threads` : device),
+  deviceOf: (device: string, threads: number) => (threads > 1 ? `${device} · ${threads} threads` : device),
   quality: "Quality",
   qualityOf: (quality: Quality): string => quality,
   expected: "Errors to expect",
