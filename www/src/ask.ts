@@ -5,20 +5,27 @@ import { texts } from "./texts/texts.js";
  *
  * @param stopped makes the words of an error where the worker ends without one
  */
-export function ask<Answer>(
+export async function ask<Answer>(
   worker: Worker,
   request: unknown,
   stopped: (why: string) => string,
   signal?: AbortSignal,
 ): Promise<Answer> {
-  return new Promise((resolve, reject) => {
-    signal?.throwIfAborted();
-    signal?.addEventListener("abort", () => reject(signal.reason), { once: true });
-    worker.onmessage = ({ data }: MessageEvent<Answer>) => resolve(data);
-    worker.onerror = (event) => {
-      event.preventDefault();
-      reject(new Error(stopped(event.message || texts.large.outOfMemory)));
-    };
-    worker.postMessage(request);
-  });
+  signal?.throwIfAborted();
+  // One signal may follow hundreds of questions.
+  const answered = new AbortController();
+  try {
+    return await new Promise((resolve, reject) => {
+      const stop = () => reject(signal?.reason);
+      signal?.addEventListener("abort", stop, { once: true, signal: answered.signal });
+      worker.onmessage = ({ data }: MessageEvent<Answer>) => resolve(data);
+      worker.onerror = (event) => {
+        event.preventDefault();
+        reject(new Error(stopped(event.message || texts.large.outOfMemory)));
+      };
+      worker.postMessage(request);
+    });
+  } finally {
+    answered.abort();
+  }
 }
