@@ -203,7 +203,13 @@ fn published_networks_are_points_of_the_space() {
         fused: vec![Stage::plain(128, 2), transposed(Stage::plain(64, 1))],
         pixels: None,
     };
-    assert_eq!(normal_cost(&normal(nenet), 1024).parameters, 2_210_243);
+    // Whatever the pictures' size.
+    for area in [0, 1024] {
+        assert_eq!(
+            normal_cost(&normal(nenet.clone()), area).parameters,
+            2_210_243
+        );
+    }
     let mut lcnet = LightArchitecture {
         input_size: 128,
         body: LightBody::Staged(StagedLight {

@@ -13,7 +13,8 @@ pub(super) fn row(
     let mut cost = Cost::default();
     for (place, stage) in stages.iter().enumerate() {
         let before = area;
-        area = match halvings[usize::from(place > 0)] {
+        let halving = halvings[usize::from(place > 0)];
+        area = match halving {
             1 => area / 4,
             -1 => area * 4,
             _ => area,
@@ -26,7 +27,7 @@ pub(super) fn row(
             // A depthwise convolution comes before the size is doubled.
             let spatial = if layer == 0 { before.min(area) } else { area };
             let widths = [channels, stage.width];
-            let doubles = layer == 0 && before < area;
+            let doubles = layer == 0 && halving < 0;
             cost = cost
                 + match kind {
                     LayerKind::Transposed4 if doubles => transposed(channels, stage.width, area),
