@@ -17,11 +17,10 @@ export function threadCount(wished: number | undefined, cores: number): number {
   throw { kind: "input", message: `threads: found ${wished}, a whole number from 1 is expected` };
 }
 
-/** A helper, what it does, and the end of what it was given last. */
+/** A helper, and the end of what it was given last while that is under way. */
 interface Member {
   readonly connection: Connection;
-  busy: boolean;
-  last: Promise<unknown>;
+  last?: Promise<void> | undefined;
 }
 
 /**
@@ -39,10 +38,9 @@ export class Helpers implements HelperPool {
   ) {
     try {
       for (let started = 0; startHelper && started < count; started++) {
-        const connection = new Connection(startHelper());
-        const member = { connection, busy: false, last: Promise.resolve() };
+        const member: Member = { connection: new Connection(startHelper()) };
         this.#members.push(member);
-        this.#ask(member, () => connection.run("help", request)).catch(() => undefined);
+        this.#ask(member, () => member.connection.run("help", request)).catch(() => undefined);
       }
     } catch {
       // Where no worker can be started, there is one thread.
@@ -67,15 +65,14 @@ export class Helpers implements HelperPool {
   /** Asks at once, or when the last work has ended: what a cancelled run asked for may still be under way. */
   async #ask<T>(member: Member, run: () => Promise<T>): Promise<T> {
     // Who asks computes for seconds afterwards, during which no promise goes on.
-    const answer = member.busy ? member.last.then(run) : run();
-    member.busy = true;
+    const answer = member.last?.then(run) ?? run();
     const last = answer.then(
       () => undefined,
       () => this.#leave(member.connection),
     );
     member.last = last;
     last.then(() => {
-      if (member.last === last) member.busy = false;
+      if (member.last === last) member.last = undefined;
     });
     return await answer;
   }

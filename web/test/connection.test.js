@@ -2,23 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Connection } from "../dist/connection.js";
 import { NormalightError } from "../dist/errors.js";
-
-/** A worker that the test plays. */
-class Played {
-  asked = [];
-  terminated = false;
-  onmessage = null;
-  onerror = null;
-  postMessage(message) {
-    this.asked.push(message);
-  }
-  terminate() {
-    this.terminated = true;
-  }
-  say(data) {
-    this.onmessage({ data });
-  }
-}
+import { Played } from "./support/played.js";
 
 function connect() {
   const worker = new Played();

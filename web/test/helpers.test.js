@@ -2,23 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Helpers, threadCount } from "../dist/helpers.js";
-
-/** A worker that the test plays. */
-class Played {
-  asked = [];
-  terminated = false;
-  onmessage = null;
-  onerror = null;
-  postMessage(message) {
-    this.asked.push(message);
-  }
-  terminate() {
-    this.terminated = true;
-  }
-  done(response) {
-    this.onmessage({ data: { event: "done", response } });
-  }
-}
+import { Played } from "./support/played.js";
 
 const REQUEST = { module: "compiled", normal: { name: "normal.safetensors", bytes: new Uint8Array(1) } };
 const WORK = [Uint32Array.of(1), Float32Array.of(2)];
@@ -57,13 +41,13 @@ test("helpers get the module, then work, one after the other", async () => {
   const answers = [helpers.features(1, ...WORK), helpers.features(1, ...WORK)];
   await settled();
   assert.equal(second.asked.length, 1);
-  second.done();
+  second.say({ event: "done", response: undefined });
   await settled();
   assert.deepEqual(second.asked[1], { task: "features", request: { shapes: WORK[0], values: WORK[1] } });
   assert.equal(second.asked.length, 2);
-  second.done("one");
+  second.say({ event: "done", response: "one" });
   await settled();
-  second.done("two");
+  second.say({ event: "done", response: "two" });
   assert.deepEqual(await Promise.all(answers), ["one", "two"]);
   helpers.free();
   assert.deepEqual([helpers.count, first.terminated, second.terminated], [0, true, true]);
@@ -72,14 +56,14 @@ test("helpers get the module, then work, one after the other", async () => {
 test("who fails is not asked again, and its work comes back undone", async () => {
   const { helpers, workers } = start(3);
   const [unable, broken, silent] = workers;
-  unable.onmessage({ data: { event: "failed", kind: "device", message: "no weights" } });
+  unable.say({ event: "failed", kind: "device", message: "no weights" });
   await settled();
   assert.equal(helpers.count, 2);
   assert.ok(unable.terminated);
-  broken.done();
+  broken.say({ event: "done", response: undefined });
   const answer = helpers.features(0, ...WORK);
   await settled();
-  broken.onmessage({ data: { event: "crashed", message: "memory", gpu: false } });
+  broken.say({ event: "crashed", message: "memory", gpu: false });
   assert.equal(await answer, undefined);
   assert.equal(helpers.count, 1);
   silent.onerror({ message: "blocked" });
