@@ -1,4 +1,4 @@
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -54,6 +54,34 @@ export function commandResults(files, ...options) {
     execFileSync(commandLine(), ["estimate", stack, "--out", results, ...settings]);
     return new Map(filesIn(results).map(({ name, bytes }) => [name, bytes]));
   });
+}
+
+/**
+ * Works with the folder of a report: all methods on two small objects drawn for it, with two numbers of photographs.
+ * @template T @param {(folder: string) => Promise<T>} work
+ */
+export async function withReport(work) {
+  const folder = mkdtempSync(join(tmpdir(), "normalight-report-"));
+  try {
+    const [set, report] = [join(folder, "set"), join(folder, "report")];
+    const size = ["--count", "2", "--images", "6", "--size", "48"];
+    execFileSync(commandLine(), ["render", ...size, "--out", set, "--quiet"]);
+    const measured = ["--methods", "all", "--images", "6,4", "--disturb", "encoded", "--quality", "fast"];
+    // What some method cannot do is a part of the report, and its exit code says so.
+    spawnSync(commandLine(), [
+      "evaluate",
+      set,
+      ...measured,
+      "--device",
+      "cpu",
+      "--report",
+      report,
+      "--quiet",
+    ]);
+    return await work(report);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
 }
 
 /** Lends a folder that is gone afterwards. @template T @param {(folder: string) => T} work */
