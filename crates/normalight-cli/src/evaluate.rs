@@ -71,6 +71,9 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
     let mut bytes = serde_json::to_vec_pretty(&evaluation)?;
     bytes.push(b'\n');
     if let Some(store) = store {
+        if args.estimates {
+            store.pack_estimates(&trials, &methods)?;
+        }
         let report = Report {
             facts: evaluation.facts(),
             pictures: store.all_pictures(&trials),

@@ -12,6 +12,14 @@ pub enum EvaluateError {
     /// A truth that does not fit the photographs.
     #[error(transparent)]
     Core(#[from] CoreError),
+    /// A method that needs true lights which are not known.
+    #[error("the true lights are not known (light_directions.txt), and this method needs them")]
+    NoLights,
+    /// Neither true normals nor true lights, and nobody who wants the estimate.
+    #[error(
+        "neither true normals (Normal_gt.mat) nor true lights (light_directions.txt): nothing can be compared"
+    )]
+    NoTruth,
     /// A photograph that cannot be disturbed as asked.
     #[error("a photograph cannot be disturbed: {0}")]
     Disturbance(String),

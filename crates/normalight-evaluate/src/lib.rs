@@ -17,7 +17,7 @@ mod training;
 
 pub use disturbance::Disturbance;
 pub use error::EvaluateError;
-pub use figures::{Figures, ObjectFigures};
+pub use figures::{Figures, NormalFigures, ObjectFigures};
 pub use measure::{Measured, evaluate_object};
 pub use method::Method;
 pub use object::BenchmarkObject;

@@ -1,7 +1,9 @@
-use crate::{BenchmarkObject, EvaluateError, Figures, Method, ObjectFigures, Reliability};
+use crate::{
+    BenchmarkObject, EvaluateError, Figures, Method, NormalFigures, ObjectFigures, Reliability,
+};
 use normalight_core::{
-    Light, NormalMap, intensity_error, least_squares_normals, mean_light_error, normal_error,
-    robust_normals, uncalibrated_factorisation,
+    Light, NormalError, NormalMap, intensity_error, least_squares_normals, mean_light_error,
+    normal_error, robust_normals, uncalibrated_factorisation,
 };
 use normalight_model::{EstimateInput, EstimateSettings, Estimator, Observer};
 use std::time::Instant;
@@ -17,9 +19,10 @@ pub struct Measured {
     pub lights: Option<Vec<Light>>,
 }
 
-/// Runs a method on an object, the networks exactly as users run them, and compares with the truth.
+/// Runs a method on an object, the networks exactly as users run them, and compares with what is known of the truth.
 ///
 /// # Errors
+/// [`EvaluateError::NoLights`] for a method that needs the true lights where they are not known;
 /// [`EvaluateError::Model`] (cancelled by the observer, say) or [`EvaluateError::Core`] for a truth that
 /// does not fit the photographs, or where a classical method has too few of them.
 pub fn evaluate_object(
@@ -43,6 +46,7 @@ pub fn evaluate_object(
         };
         pollster::block_on(estimator.estimate(input, settings, observer))
     };
+    let known = || lights.as_deref().ok_or(EvaluateError::NoLights);
     let mut expected = None;
     let start = Instant::now();
     let (normals, found) = match method {
@@ -56,12 +60,12 @@ pub fn evaluate_object(
             (least_squares_normals(stack, mask, &found)?.0, Some(found))
         }
         Method::Calibrated => {
-            let estimate = estimate(Some(lights))?;
+            let estimate = estimate(Some(known()?))?;
             expected = estimate.normal_errors;
             (estimate.normals, None)
         }
-        Method::LeastSquares => (least_squares_normals(stack, mask, lights)?.0, None),
-        Method::Robust => (robust_normals(stack, mask, lights)?.0, None),
+        Method::LeastSquares => (least_squares_normals(stack, mask, known()?)?.0, None),
+        Method::Robust => (robust_normals(stack, mask, known()?)?.0, None),
         Method::Factorisation => {
             let found = uncalibrated_factorisation(stack, mask)?;
             (found.normals, Some(found.lights))
@@ -78,12 +82,12 @@ pub fn evaluate_object(
         let input = EstimateInput {
             stack,
             mask,
-            lights: method.knows_lights().then_some(&lights[..]),
+            lights: lights.as_deref().filter(|_| method.knows_lights()),
         };
         figures.multiply_adds = Some(estimator.multiply_adds(input, settings) as f64);
     }
-    if let Some(expected) = expected {
-        *reliability = Reliability::classes(&expected, &measured.normals, &object.normals, mask);
+    if let (Some(expected), Some(truth)) = (expected, &object.normals) {
+        *reliability = Reliability::classes(&expected, &measured.normals, truth, mask);
     }
     Ok(measured)
 }
@@ -96,28 +100,37 @@ impl Measured {
         lights: Option<Vec<Light>>,
         seconds: f64,
     ) -> Result<Self, EvaluateError> {
-        let error = normal_error(&normals, &object.normals, &object.mask)?;
         let degrees = |radians: f32| f64::from(radians).to_degrees();
-        let (light_degrees, intensity_error) = match &lights {
-            None => (None, None),
-            Some(found) => (
-                Some(degrees(mean_light_error(found, &object.lights)?)),
-                Some(f64::from(intensity_error(found, &object.lights)?)),
+        let truth = object.normals.as_ref();
+        let error = truth
+            .map(|truth| normal_error(&normals, truth, &object.mask))
+            .transpose()?;
+        let (light_degrees, intensity_error) = match (&lights, &object.lights) {
+            (Some(found), Some(lights)) => (
+                Some(degrees(mean_light_error(found, lights)?)),
+                Some(f64::from(intensity_error(found, lights)?)),
             ),
+            _ => (None, None),
         };
-        let [under_11_25, under_22_5, under_30] = error.shares.map(f64::from);
+        let of_normals = |error: &NormalError| {
+            let [under_11_25, under_22_5, under_30] = error.shares.map(f64::from);
+            NormalFigures {
+                normal_degrees: degrees(error.mean),
+                normal_median_degrees: degrees(error.median),
+                under_11_25,
+                under_22_5,
+                under_30,
+            }
+        };
+        let pixels = error.as_ref().map_or(0, |error| error.pixels);
         Ok(Self {
             figures: ObjectFigures {
                 name: object.name.clone(),
                 images: object.stack.len(),
-                pixels: error.pixels,
-                without_truth: object.mask.count() - error.pixels,
+                pixels,
+                without_truth: object.mask.count() - pixels,
                 figures: Figures {
-                    normal_degrees: degrees(error.mean),
-                    normal_median_degrees: degrees(error.median),
-                    under_11_25,
-                    under_22_5,
-                    under_30,
+                    normals: error.as_ref().map(of_normals),
                     light_degrees,
                     intensity_error,
                     seconds,
@@ -145,7 +158,8 @@ impl Measured {
     /// Those of [`evaluate_object`]; `None` of lights, which other methods leave, are the true ones.
     pub fn with_least_squares(&self, object: &BenchmarkObject) -> Result<Self, EvaluateError> {
         let start = Instant::now();
-        let lights = self.lights.as_ref().unwrap_or(&object.lights);
+        let lights = self.lights.as_ref().or(object.lights.as_ref());
+        let lights = lights.ok_or(EvaluateError::NoLights)?;
         let (normals, _) = least_squares_normals(&object.stack, &object.mask, lights)?;
         let before = self.figures.figures;
         let seconds = before.seconds + start.elapsed().as_secs_f64();

@@ -1,7 +1,7 @@
 use crate::EvaluateError;
-use normalight_core::{ImageStack, Light, Mask, NormalMap, reduced};
+use normalight_core::{ImageStack, Light, Mask, NormalMap, Vec3, reduced};
 
-/// An object with the truth about it.
+/// An object with what is known of the truth about it.
 #[derive(Debug, Clone)]
 pub struct BenchmarkObject {
     /// Its name.
@@ -10,10 +10,10 @@ pub struct BenchmarkObject {
     pub stack: ImageStack,
     /// Its pixels.
     pub mask: Mask,
-    /// The true light of each photograph.
-    pub lights: Vec<Light>,
-    /// The true normals; pixels with zero are left out.
-    pub normals: NormalMap,
+    /// The true light of each photograph; `None` where they are withheld, or not one direction each.
+    pub lights: Option<Vec<Light>>,
+    /// The true normals; pixels with zero are left out. `None` where they are withheld.
+    pub normals: Option<NormalMap>,
 }
 
 impl BenchmarkObject {
@@ -24,12 +24,15 @@ impl BenchmarkObject {
     pub fn with_photographs(&self, indices: &[usize]) -> Result<Self, EvaluateError> {
         let images = indices.iter().filter_map(|&at| self.stack.images().get(at));
         let stack = ImageStack::new(images.cloned().collect())?;
-        let lights = indices.iter().filter_map(|&at| self.lights.get(at));
+        let chosen = |lights: &Vec<Light>| {
+            let lights = indices.iter().filter_map(|&at| lights.get(at));
+            lights.copied().collect()
+        };
         Ok(Self {
             name: self.name.clone(),
             stack,
             mask: self.mask.clone(),
-            lights: lights.copied().collect(),
+            lights: self.lights.as_ref().map(chosen),
             normals: self.normals.clone(),
         })
     }
@@ -50,13 +53,18 @@ impl BenchmarkObject {
         }
         let shorter = |length: usize| (length * side).div_ceil(longer);
         let size = [part.width, part.height].map(shorter);
-        let small = reduced(&self.stack, &self.mask, &self.normals, part, size)?;
+        let unknown = || {
+            let pixels = vec![Vec3::ZERO; self.mask.inside().len()];
+            NormalMap::new(self.mask.width(), self.mask.height(), pixels)
+        };
+        let normals = self.normals.clone().unwrap_or_else(unknown);
+        let small = reduced(&self.stack, &self.mask, &normals, part, size)?;
         Ok(Self {
             name: self.name.clone(),
             stack: small.stack,
             mask: small.mask,
             lights: self.lights.clone(),
-            normals: small.normals,
+            normals: self.normals.as_ref().map(|_| small.normals),
         })
     }
 }

@@ -1,4 +1,4 @@
-use crate::{Disturbance, Figures, Method, ObjectFigures, Photographs, Reliability};
+use crate::{Disturbance, Figures, Method, NormalFigures, ObjectFigures, Photographs, Reliability};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -41,7 +41,7 @@ pub struct Table {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
     /// Of the mean error of the normals, in degrees.
-    pub normal_degrees: f64,
+    pub normal_degrees: Option<f64>,
     /// Of the mean error of the lights, in degrees.
     pub light_degrees: Option<f64>,
 }
@@ -179,22 +179,29 @@ impl Table {
             text += &row("mean", &cells(None, mean));
         }
         if let Some(spread) = &self.spread {
-            let _ = write!(
-                text,
-                "standard deviation over the choices: normals {:.2}",
-                spread.normal_degrees
-            );
-            if let Some(lights) = spread.light_degrees {
-                let _ = write!(text, ", lights {lights:.2}");
-            }
-            text.push('\n');
-        }
-        for object in self.objects.iter().filter(|o| o.without_truth > 0) {
+            let parts = [
+                ("normals", spread.normal_degrees),
+                ("lights", spread.light_degrees),
+            ];
+            let known = parts
+                .into_iter()
+                .filter_map(|(what, deviation)| Some(format!("{what} {:.2}", deviation?)));
+            let known: Vec<String> = known.collect();
             let _ = writeln!(
                 text,
-                "{}: {} pixels without a true normal left out",
-                object.name, object.without_truth
+                "standard deviation over the choices: {}",
+                known.join(", ")
             );
+        }
+        for object in self.objects.iter().filter(|o| o.without_truth > 0) {
+            let _ = match object.figures.normals {
+                Some(_) => writeln!(
+                    text,
+                    "{}: {} pixels without a true normal left out",
+                    object.name, object.without_truth
+                ),
+                None => writeln!(text, "{}: its true normals are not known", object.name),
+            };
         }
         text
     }
@@ -207,9 +214,10 @@ impl Spread {
             let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
             (squares / (values.len() - 1) as f64).sqrt()
         };
+        let normals: Option<Vec<f64>> = means.iter().map(Figures::normal_degrees).collect();
         let lights: Option<Vec<f64>> = means.iter().map(|figures| figures.light_degrees).collect();
         Self {
-            normal_degrees: deviation(means.iter().map(|f| f.normal_degrees).collect()),
+            normal_degrees: normals.map(deviation),
             light_degrees: lights.map(deviation),
         }
     }
@@ -231,13 +239,15 @@ pub(crate) const COLUMNS: [&str; 9] = [
 /// The cells below [`COLUMNS`].
 pub(crate) fn cells(images: Option<usize>, figures: &Figures) -> [String; 9] {
     let share = |share: f64| format!("{:.1} %", 100.0 * share);
+    let normals =
+        |words: &dyn Fn(NormalFigures) -> String| figures.normals.map_or("-".to_owned(), words);
     [
         images.map_or(String::new(), |images| images.to_string()),
-        format!("{:.2}", figures.normal_degrees),
-        format!("{:.2}", figures.normal_median_degrees),
-        share(figures.under_11_25),
-        share(figures.under_22_5),
-        share(figures.under_30),
+        known(figures.normal_degrees(), 2),
+        normals(&|normals| format!("{:.2}", normals.normal_median_degrees)),
+        normals(&|normals| share(normals.under_11_25)),
+        normals(&|normals| share(normals.under_22_5)),
+        normals(&|normals| share(normals.under_30)),
         known(figures.light_degrees, 2),
         known(figures.intensity_error, 3),
         format!("{:.2}", figures.seconds),
@@ -255,11 +265,13 @@ mod tests {
 
     fn trial(object: &str, images: Option<usize>, subset: Option<u64>, degrees: f64) -> Trial {
         let figures = Figures {
-            normal_degrees: degrees,
-            normal_median_degrees: degrees,
-            under_11_25: 0.5,
-            under_22_5: 0.5,
-            under_30: 1.0,
+            normals: Some(NormalFigures {
+                normal_degrees: degrees,
+                normal_median_degrees: degrees,
+                under_11_25: 0.5,
+                under_22_5: 0.5,
+                under_30: 1.0,
+            }),
             light_degrees: Some(degrees / 2.0),
             intensity_error: Some(0.1),
             seconds: 1.0,
@@ -301,13 +313,13 @@ mod tests {
         let degrees: Vec<f64> = table
             .objects
             .iter()
-            .map(|o| o.figures.normal_degrees)
+            .map(|o| o.figures.normal_degrees().unwrap())
             .collect();
         assert_eq!(degrees, [8.0, 16.0]);
-        assert_eq!(table.mean.unwrap().normal_degrees, 12.0);
+        assert_eq!(table.mean.unwrap().normal_degrees(), Some(12.0));
         // Means over the objects: 9 and 15.
         let spread = table.spread.unwrap();
-        assert!((spread.normal_degrees - 18.0_f64.sqrt()).abs() < 1e-9);
+        assert!((spread.normal_degrees.unwrap() - 18.0_f64.sqrt()).abs() < 1e-9);
         assert!((spread.light_degrees.unwrap() - 18.0_f64.sqrt() / 2.0).abs() < 1e-9);
         let text = table.to_text();
         for part in ["egg", "16.00", "mean", "4.24", "egg: 7 pixels"] {
@@ -327,7 +339,7 @@ mod tests {
         let table = &Table::all(&trials)[0];
         assert_eq!(table.objects.len(), 1);
         assert_eq!(table.failures[0].reason, "too dark");
-        assert_eq!(table.mean.unwrap().normal_degrees, 6.0);
+        assert_eq!(table.mean.unwrap().normal_degrees(), Some(6.0));
         assert!(table.to_text().contains("failed: too dark"));
     }
 }

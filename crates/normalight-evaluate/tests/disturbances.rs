@@ -30,8 +30,8 @@ fn object() -> BenchmarkObject {
         name: "square".to_owned(),
         stack: ImageStack::new([0.2, 0.4, 0.6].map(image).into()).unwrap(),
         mask: Mask::new(SIDE, SIDE, (0..SIDE * SIDE).map(inside).collect()),
-        lights: vec![Light::new(Vec3::Z, 1.0); 3],
-        normals: NormalMap::new(SIDE, SIDE, vec![Vec3::Z; SIDE * SIDE]),
+        lights: Some(vec![Light::new(Vec3::Z, 1.0); 3]),
+        normals: Some(NormalMap::new(SIDE, SIDE, vec![Vec3::Z; SIDE * SIDE])),
     }
 }
 

@@ -50,6 +50,7 @@ mod light_text;
 mod limits;
 mod maps;
 mod mask_file;
+mod matlab;
 mod mesh;
 mod mesh_files;
 mod names;
@@ -101,6 +102,7 @@ pub use maps::{
     NormalFormat, albedo_png, mask_png, normal_errors_png, normals_npy, normals_png, npy,
 };
 pub use mask_file::decode_mask;
+pub use matlab::normals_mat;
 pub use mesh::read_mesh;
 pub use mesh_files::{MeshFileFormat, Texture, mesh_as_files};
 pub use names::NameMatch;
@@ -108,7 +110,7 @@ pub use names::NameMatch;
 pub use native::{
     DiligentObject, ObjectToPublish, OutputFolder, PublishedEntry, PublishedObject, PublishedPart,
     PublishedSet, PublishedSplit, PublishedWriter, list_diligent_objects, lock_file, mesh_files,
-    read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths,
+    pack_files, read_diligent_object, read_lights_path, read_mesh_file, read_named, read_paths,
     sweep_leftovers, write_files,
 };
 pub use normal_file::read_normals;

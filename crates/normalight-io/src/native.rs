@@ -10,6 +10,7 @@ mod inside;
 mod intensities;
 mod lock;
 mod meshes;
+mod pack;
 mod published;
 mod read;
 mod write;
@@ -19,6 +20,7 @@ pub use diligent::{DiligentObject, list_diligent_objects, read_diligent_object};
 pub use files::read_named;
 pub use lock::lock_file;
 pub use meshes::{mesh_files, read_mesh_file};
+pub use pack::pack_files;
 pub use published::{
     ObjectToPublish, PublishedEntry, PublishedObject, PublishedPart, PublishedSet, PublishedSplit,
     PublishedWriter,

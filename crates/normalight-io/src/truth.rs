@@ -1,15 +1,10 @@
 //! True normals beside photographs, to compare the estimated ones with.
-mod matlab;
-
 use crate::format::base_name;
+use crate::matlab::find_array;
 use crate::names::{folded, stem};
 use crate::{IoError, NormalFormat, read_normals};
-use matlab::find_array;
 use normalight_core::{Estimate, Mask, NormalError, NormalMap, Vec3, angle_to_truth, normal_error};
 use serde::{Deserialize, Serialize};
-
-#[cfg(fuzzing)]
-pub(crate) use matlab::find_array as matlab_array;
 
 /// True normals as read.
 #[derive(Debug, Clone, PartialEq)]

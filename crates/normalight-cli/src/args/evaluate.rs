@@ -14,8 +14,10 @@ pub(crate) struct EvaluateArgs {
     /// A folder of objects, or one object's folder.
     ///
     /// An object's folder holds photographs, mask.png, Normal_gt.mat, light_directions.txt and
-    /// light_intensities.txt. A folder of objects may have a list of them, objects.txt. What `render` writes, in the layout of
-    /// the Blobby and Sculpture sets, is a benchmark, too.
+    /// light_intensities.txt, as in DiLiGenT. A folder of objects may have a list of them, objects.txt. What is missing is not
+    /// compared: DiLiGenT10^2 and DiLiGenT-Pi keep their normals back, near lamps as in LUCES have no one direction (its
+    /// normals.png are taken as true). What `render` writes, in the layout of the Blobby and Sculpture sets, is a benchmark,
+    /// too.
     #[arg(value_name = "DIR")]
     pub(crate) folder: PathBuf,
     /// Methods to measure, `all` for all of them.
@@ -52,6 +54,10 @@ pub(crate) struct EvaluateArgs {
     /// else.
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
+    /// Keep the estimated normals in the report's folder, too, as the servers of DiLiGenT10^2 and DiLiGenT-Pi take them:
+    /// estimates/METHOD/normals.zip, with a MATLAB file for each object.
+    #[arg(long, requires = "report", conflicts_with = "size")]
+    pub(crate) estimates: bool,
     /// Show in the report how a training went: a name for it, and its folder.
     #[arg(
         long,
@@ -77,7 +83,8 @@ pub(crate) struct EvaluateArgs {
 }
 
 const EVALUATE_EXAMPLES: &str = "\
-Examples: tables for 96, 16 and 8 photographs of each object; a report of everything
+Examples: tables for 96, 16 and 8 photographs of each object; a report of everything; one to hand in; disturbances
   normalight evaluate DiLiGenT/pmsData --images 96,16,8 --json figures.json
   normalight evaluate DiLiGenT/pmsData --methods all --images 96,32,16,8,4 --report report
+  normalight evaluate DiLiGenT10^2 --report report --estimates
   normalight evaluate DiLiGenT/pmsData --disturb jpeg:50,ambient:0.2,clipped:0.02,grown:3 --report disturbed";

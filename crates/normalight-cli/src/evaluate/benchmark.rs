@@ -1,5 +1,6 @@
 //! The objects of a benchmark, whichever layout it has.
 use super::folder_name;
+use crate::terminal::note;
 use anyhow::Result;
 use normalight_evaluate::BenchmarkObject;
 use normalight_io::{PublishedEntry, PublishedSet, list_diligent_objects, read_diligent_object};
@@ -52,6 +53,11 @@ impl Source {
         Ok(match self {
             Self::Folder(folder) => {
                 let read = read_diligent_object(folder, None)?;
+                if let Some(file) = read.normals_file.filter(|file| file != "Normal_gt.mat") {
+                    note(&format!(
+                        "note: {name}: {file} are taken as its true normals"
+                    ));
+                }
                 BenchmarkObject {
                     name,
                     stack: read.input.stack,
@@ -66,8 +72,8 @@ impl Source {
                     name,
                     stack: read.stack,
                     mask: read.mask,
-                    lights: read.lights,
-                    normals: read.normals,
+                    lights: Some(read.lights),
+                    normals: Some(read.normals),
                 }
             }
         })

@@ -79,7 +79,7 @@ impl Work<'_> {
     /// A trial that is known already, with its pictures where they are wanted.
     fn find(&self, trial: &Trial, made_from: &Value) -> Option<Trial> {
         let store = self.store?;
-        let drawn = !self.is_drawn(trial) || store.has_pictures(&trial.object, trial.method);
+        let drawn = !self.is_drawn(trial) || store.has_results(trial, self.args.estimates);
         drawn.then(|| store.find(trial, made_from)).flatten()
     }
 
@@ -91,6 +91,9 @@ impl Work<'_> {
     fn read(&self, source: &Source) -> Result<BenchmarkObject, String> {
         let read = || {
             let mut object = source.read()?;
+            if object.normals.is_none() && object.lights.is_none() && !self.args.estimates {
+                return Err(EvaluateError::NoTruth.into());
+            }
             let left_out = |at: usize| {
                 let mut all = self.args.leave_out.iter();
                 all.any(|one| one.object == object.name && one.photographs.contains(&(at + 1)))
@@ -141,7 +144,10 @@ impl Work<'_> {
             Err(error) => return Ok(Err(error.to_string())),
         };
         if let Some(store) = self.store.filter(|_| self.is_drawn(trial)) {
-            store.keep_pictures(trial, object, &measured)?;
+            store.keep_results(trial, object, &measured)?;
+            if self.args.estimates {
+                store.keep_estimate(trial, &measured)?;
+            }
         }
         let figures = measured.figures.clone();
         if trial.method == Method::Uncalibrated {

@@ -1,10 +1,11 @@
 //! The folder of a report: what was measured stays there, so that a second call goes on where the first one was.
+use crate::terminal::note;
 use anyhow::{Context, Result, bail};
 use normalight_evaluate::{
     BenchmarkObject, Measured, Method, MethodPictures, ObjectPictures, Photographs, Report, Trial,
     errors_picture, normals_picture,
 };
-use normalight_io::{lights_compared_svg, lock_file, write_files};
+use normalight_io::{lights_compared_svg, lock_file, normals_mat, pack_files, write_files};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
@@ -13,6 +14,9 @@ use std::path::{Path, PathBuf};
 
 const TRIALS: &str = "trials";
 const PICTURES: &str = "pictures";
+const ESTIMATES: &str = "estimates";
+/// All estimates of a method.
+const ARCHIVE: &str = "normals.zip";
 /// What is written out in names of files.
 const WRITTEN_OUT: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_');
 
@@ -67,13 +71,52 @@ impl Store {
         Ok(write_files(&self.folder.join(TRIALS), &[(name, bytes)])?)
     }
 
-    /// Whether the pictures of an object by a method are there.
-    pub(super) fn has_pictures(&self, object: &str, method: Method) -> bool {
-        self.pictures(object, method).is_some()
+    /// Whether the pictures of what was measured are there, and the estimate where it is wanted.
+    pub(super) fn has_results(&self, trial: &Trial, estimate: bool) -> bool {
+        let pictures = self.pictures(&trial.object, trial.method).is_some();
+        pictures
+            && (!estimate
+                || self
+                    .estimates(trial.method)
+                    .join(estimate_name(&trial.object))
+                    .is_file())
+    }
+
+    /// Keeps the normals that were found in a trial that is kept next, after its pictures: in the form that the servers of
+    /// DiLiGenT10^2 and DiLiGenT-Pi take.
+    pub(super) fn keep_estimate(&self, trial: &Trial, measured: &Measured) -> Result<()> {
+        let file = normals_mat("Normal_est", &measured.normals)?;
+        let files = [(estimate_name(&trial.object), file)];
+        Ok(write_files(&self.estimates(trial.method), &files)?)
+    }
+
+    /// Packs the estimates of each method into one archive, and says where they are.
+    pub(super) fn pack_estimates(&self, trials: &[Trial], methods: &[Method]) -> Result<()> {
+        for &method in methods {
+            let of_it = trials
+                .iter()
+                .filter(|trial| trial.method == method && trial.result.is_ok());
+            let mut names: Vec<String> = of_it.map(|trial| estimate_name(&trial.object)).collect();
+            names.dedup();
+            if !names.is_empty() {
+                let folder = self.estimates(method);
+                pack_files(&folder, ARCHIVE, &names)?;
+                note(&format!(
+                    "{} objects in {}",
+                    names.len(),
+                    folder.join(ARCHIVE).display()
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn estimates(&self, method: Method) -> PathBuf {
+        self.folder.join(ESTIMATES).join(method.name())
     }
 
     /// Keeps the pictures of what was measured in a trial that is kept next.
-    pub(super) fn keep_pictures(
+    pub(super) fn keep_results(
         &self,
         trial: &Trial,
         object: &BenchmarkObject,
@@ -85,17 +128,23 @@ impl Store {
             _ => {}
         }
         let lights = measured.lights.as_ref();
+        let true_lights = object.lights.as_deref().unwrap_or_default();
+        let truth = object.normals.as_ref();
+        let errors = |truth| errors_picture(&measured.normals, truth, &object.mask);
         let name = |what: &str| picture_name(&trial.object, trial.method, what);
         let files = [
-            (truth_name(&trial.object), normals_picture(&object.normals)?),
+            (
+                truth_name(&trial.object),
+                truth.map(normals_picture).transpose()?.unwrap_or_default(),
+            ),
             (
                 name("errors.png"),
-                errors_picture(&measured.normals, &object.normals, &object.mask)?,
+                truth.map(errors).transpose()?.unwrap_or_default(),
             ),
             (
                 name("lights.svg"),
                 lights.map_or(Vec::new(), |lights| {
-                    lights_compared_svg(lights, &object.lights)
+                    lights_compared_svg(lights, true_lights)
                 }),
             ),
             // The last one says that all are there.
@@ -170,6 +219,10 @@ fn trial_name(trial: &Trial) -> String {
     let disturbance = disturbance.map(|one| written_out(&one.to_string()));
     name += &disturbance.map_or(String::new(), |one| format!("--{one}"));
     name + ".json"
+}
+
+fn estimate_name(object: &str) -> String {
+    written_out(object) + ".mat"
 }
 
 fn truth_name(object: &str) -> String {

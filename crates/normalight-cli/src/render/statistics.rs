@@ -1,6 +1,6 @@
-use anyhow::Result;
+use anyhow::{Result, bail};
 use normalight_core::StackStatistics;
-use normalight_io::{list_diligent_objects, read_diligent_object};
+use normalight_io::{DiligentObject, list_diligent_objects, read_diligent_object};
 use normalight_synth::Sample;
 use std::path::Path;
 
@@ -52,12 +52,14 @@ impl Statistics {
             text.push('\n');
             for folder in list_diligent_objects(folder)? {
                 let object = read_diligent_object(&folder, None)?;
-                let statistics = StackStatistics::new(
-                    &object.input.stack,
-                    &object.input.mask,
-                    &object.normals,
-                    &object.lights,
-                )?;
+                let (Some(normals), Some(lights)) = (&object.normals, &object.lights) else {
+                    bail!(
+                        "{}: its true normals or lights are not known",
+                        folder.display()
+                    );
+                };
+                let DiligentObject { input, .. } = &object;
+                let statistics = StackStatistics::new(&input.stack, &input.mask, normals, lights)?;
                 text += &row(&object.name, &cells(&statistics.figures()));
             }
         }

@@ -169,6 +169,91 @@ fn only_what_is_missing_is_measured_again() {
     assert_eq!(std::fs::read(out.join("trials.csv")).unwrap(), rows);
 }
 
+/// Benchmarks that keep their normals back take them as an archive of MATLAB files.
+#[test]
+fn estimates_for_a_server() {
+    let (place, folder, out) = benchmark();
+    let (withheld, near) = (folder.join("BALL_POM"), folder.join("Bell"));
+    write_object(&withheld);
+    write_object(&near);
+    std::fs::remove_dir_all(folder.join("<b>&ampPNG")).unwrap();
+    std::fs::remove_file(withheld.join("Normal_gt.mat")).unwrap();
+    for name in [
+        "light_directions.txt",
+        "light_intensities.txt",
+        "Normal_gt.mat",
+    ] {
+        std::fs::remove_file(near.join(name)).unwrap();
+    }
+    // Only a list makes an object of photographs alone.
+    std::fs::write(folder.join("objects.txt"), "BALL_POM\nBell\neggPNG\n").unwrap();
+    let more = ["--methods", "factorisation,least-squares", "--estimates"];
+    // Least squares cannot do without lights.
+    let output = ended(report(&folder, &out, &more), 1);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        errors.contains("Bell, least-squares") && errors.contains("light_directions.txt"),
+        "{errors}"
+    );
+    let json = read_json(&out.join("report.json"));
+    let [classical, told] = [0, 1].map(|k| json["tables"][k].clone());
+    let names = |table: &serde_json::Value, list: &str| -> Vec<String> {
+        let list = table[list].as_array().unwrap();
+        list.iter()
+            .map(|one| one["name"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(names(&classical, "objects"), ["BALL_POM", "Bell", "egg"]);
+    assert_eq!(names(&told, "failures"), ["Bell"]);
+    let known = |object: usize, key: &str| classical["objects"][object][key].as_f64().is_some();
+    let of = |object| {
+        [
+            known(object, "normal_degrees"),
+            known(object, "light_degrees"),
+        ]
+    };
+    assert_eq!(
+        [of(0), of(1), of(2)],
+        [[false, true], [false, false], [true, true]]
+    );
+    // A mean over the others would be another benchmark's.
+    assert!(classical["mean"]["normal_degrees"].is_null());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("BALL_POM: its true normals are not known"),
+        "{text}"
+    );
+    let page = std::fs::read_to_string(out.join("index.html")).unwrap();
+    assert_eq!(page.matches("alt=\"True normals of").count(), 1);
+
+    let folder_of = |method: &str| out.join("estimates").join(method);
+    assert_eq!(
+        files(&folder_of("least-squares")),
+        ["BALL_POM.mat", "egg.mat", "normals.zip"]
+    );
+    let archive = folder_of("factorisation").join("normals.zip");
+    let again = place.path().join("again");
+    // Read back as an archive of truth would be: the server's side.
+    let mut unpacked = zip::ZipArchive::new(std::fs::File::open(&archive).unwrap()).unwrap();
+    unpacked.extract(&again).unwrap();
+    assert_eq!(files(&again), ["BALL_POM.mat", "Bell.mat", "egg.mat"]);
+    // An estimate that is gone is made again, the others are not.
+    let ball = folder_of("factorisation").join("BALL_POM.mat");
+    let egg = written(&folder_of("factorisation"), "egg.mat");
+    std::fs::remove_file(&ball).unwrap();
+    ended(report(&folder, &out, &more), 1);
+    assert!(ball.is_file() && written(&folder_of("factorisation"), "egg.mat") == egg);
+
+    // Nothing to compare with, and nobody who wants the estimate.
+    std::fs::remove_dir_all(&withheld).unwrap();
+    std::fs::write(folder.join("objects.txt"), "Bell\n").unwrap();
+    let other = place.path().join("other");
+    let output = ended(report(&folder, &other, &["--methods", "factorisation"]), 1);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(errors.contains("Bell: neither true normals"), "{errors}");
+    ended(report(&folder, &out, &["--estimates", "--size", "32"]), 2);
+}
+
 #[test]
 fn random_choices_and_photographs_that_are_left_out() {
     let (_place, folder, out) = benchmark();

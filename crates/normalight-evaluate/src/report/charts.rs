@@ -161,7 +161,7 @@ fn lines(tables: &[Table], quantity: Quantity) -> Vec<Line> {
                 let images = table.objects.iter().map(|object| object.images).max()?;
                 let mean = table.mean.as_ref()?;
                 let degrees = match quantity {
-                    Quantity::Normals => mean.normal_degrees,
+                    Quantity::Normals => mean.normal_degrees()?,
                     Quantity::Lights => mean.light_degrees?,
                 };
                 Some((images as f64, degrees))

@@ -151,9 +151,11 @@ fn objects(pictures: &[ObjectPictures]) -> Markup {
             @for object in pictures {
                 h3 { (object.object) }
                 div.pictures {
-                    figure {
-                        img src=(data("image/png", &object.truth)) alt=(format!("True normals of {}", object.object));
-                        figcaption { "True normals" }
+                    @if !object.truth.is_empty() {
+                        figure {
+                            img src=(data("image/png", &object.truth)) alt=(format!("True normals of {}", object.object));
+                            figcaption { "True normals" }
+                        }
                     }
                     @for method in &object.methods { (found(&object.object, method)) }
                 }
@@ -172,14 +174,16 @@ fn found(object: &str, pictures: &MethodPictures) -> Markup {
                     img src=(data("image/png", &pictures.normals)) alt=(format!("Normals of {object}: {title}"));
                     figcaption { "Normals" }
                 }
-                figure {
-                    img src=(data("image/png", &pictures.errors)) alt=(format!("Errors of the normals of {object}: {title}"));
-                    figcaption { "Errors" }
+                @if !pictures.errors.is_empty() {
+                    figure {
+                        img src=(data("image/png", &pictures.errors)) alt=(format!("Errors of the normals of {object}: {title}"));
+                        figcaption { "Errors" }
+                    }
                 }
                 @if !pictures.lights.is_empty() {
                     figure {
                         img.lights src=(data("image/svg+xml", &pictures.lights)) alt=(format!("Lights of {object}, found and true: {title}"));
-                        figcaption { "Lights, and lines to the true ones" }
+                        figcaption { "Lights, and lines to the true ones where these are known" }
                     }
                 }
             }

@@ -12,7 +12,7 @@ pub(super) const MOST_DEGREES: f32 = 45.0;
 pub struct ObjectPictures {
     /// The object's name.
     pub object: String,
-    /// Its true normals.
+    /// Its true normals; empty where they are not known.
     pub truth: Vec<u8>,
     /// What each method found.
     pub methods: Vec<MethodPictures>,
@@ -25,9 +25,9 @@ pub struct MethodPictures {
     pub method: Method,
     /// The normals.
     pub normals: Vec<u8>,
-    /// The errors of the normals.
+    /// The errors of the normals; empty where the true ones are not known.
     pub errors: Vec<u8>,
-    /// The lights, with the true ones; empty where they were given.
+    /// The lights, with the true ones where these are known; empty where they were given.
     pub lights: Vec<u8>,
 }
 

@@ -1,7 +1,7 @@
 //! What stands in the tables of all reports.
 use crate::published::{PUBLISHED, Published};
 use crate::table::known;
-use crate::{EvaluateError, Method, Table, Trial};
+use crate::{EvaluateError, Figures, Method, NormalFigures, Table, Trial};
 use std::cmp::Reverse;
 
 /// A table of words and figures, however it is written.
@@ -55,6 +55,9 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
         "Objects",
     ];
     let share = |share: f64| format!("{:.1} %", 100.0 * share);
+    let normals = |mean: &Figures, words: &dyn Fn(NormalFigures) -> String| {
+        mean.normals.map_or("-".to_owned(), words)
+    };
     let with = |value: String, spread: Option<f64>| match spread {
         Some(spread) => format!("{value} ± {spread:.2}"),
         None => value,
@@ -71,13 +74,15 @@ pub(super) fn summary(tables: &[Table]) -> Grid {
             let spread = table.spread;
             cells.extend([
                 with(
-                    format!("{:.2}", mean.normal_degrees),
-                    spread.map(|spread| spread.normal_degrees),
+                    known(mean.normal_degrees(), 2),
+                    spread.and_then(|spread| spread.normal_degrees),
                 ),
-                format!("{:.2}", mean.normal_median_degrees),
-                share(mean.under_11_25),
-                share(mean.under_22_5),
-                share(mean.under_30),
+                normals(mean, &|normals| {
+                    format!("{:.2}", normals.normal_median_degrees)
+                }),
+                normals(mean, &|normals| share(normals.under_11_25)),
+                normals(mean, &|normals| share(normals.under_22_5)),
+                normals(mean, &|normals| share(normals.under_30)),
                 with(
                     known(mean.light_degrees, 2),
                     spread.and_then(|spread| spread.light_degrees),
@@ -159,8 +164,8 @@ fn of_quantity(tables: &[Table], images: Option<usize>, quantity: Quantity) -> G
     let mut rows: Vec<GridRow> = of_it()
         .filter(|table| shown(tables, table, quantity))
         .map(|table| {
-            let value = |figures: &crate::Figures| match quantity {
-                Quantity::Normals => Some(figures.normal_degrees),
+            let value = |figures: &Figures| match quantity {
+                Quantity::Normals => figures.normal_degrees(),
                 Quantity::Lights => figures.light_degrees,
             };
             let measured = |name: &str| table.objects.iter().find(|object| object.name == name);
@@ -250,7 +255,7 @@ pub(super) fn disturbed(tables: &[Table]) -> Grid {
         // Means of other objects would say nothing of the disturbance.
         let whole = |table: &Table| table.mean.filter(|_| table.failures.is_empty());
         let (mean, before) = (whole(table), before.and_then(whole));
-        let normals = mean.map(|mean| mean.normal_degrees);
+        let normals = mean.and_then(|mean| mean.normal_degrees());
         let lights = mean.and_then(|mean| mean.light_degrees);
         Some(GridRow {
             published: false,
@@ -258,7 +263,7 @@ pub(super) fn disturbed(tables: &[Table]) -> Grid {
                 words,
                 table.method.title().to_owned(),
                 known(normals, 2),
-                more(normals, before.map(|mean| mean.normal_degrees)),
+                more(normals, before.and_then(|mean| mean.normal_degrees())),
                 known(lights, 2),
                 more(lights, before.and_then(|mean| mean.light_degrees)),
             ],
@@ -311,7 +316,8 @@ pub(super) fn csv(trials: &[Trial]) -> Result<Vec<u8>, EvaluateError> {
             number(measured.map(|object| value(object) as u64))
         };
         let figures = measured.map(|object| &object.figures);
-        let figure = |value: fn(&crate::Figures) -> f64| real(figures.map(value));
+        let normals = figures.and_then(|figures| figures.normals);
+        let normal = |value: fn(NormalFigures) -> f64| real(normals.map(value));
         writer
             .write_record([
                 trial.object.clone(),
@@ -326,14 +332,14 @@ pub(super) fn csv(trials: &[Trial]) -> Result<Vec<u8>, EvaluateError> {
                 count(|object| object.images),
                 count(|object| object.pixels),
                 count(|object| object.without_truth),
-                figure(|figures| figures.normal_degrees),
-                figure(|figures| figures.normal_median_degrees),
-                figure(|figures| figures.under_11_25),
-                figure(|figures| figures.under_22_5),
-                figure(|figures| figures.under_30),
+                normal(|normals| normals.normal_degrees),
+                normal(|normals| normals.normal_median_degrees),
+                normal(|normals| normals.under_11_25),
+                normal(|normals| normals.under_22_5),
+                normal(|normals| normals.under_30),
                 real(figures.and_then(|figures| figures.light_degrees)),
                 real(figures.and_then(|figures| figures.intensity_error)),
-                figure(|figures| figures.seconds),
+                real(figures.map(|figures| figures.seconds)),
                 whole(figures.and_then(|figures| figures.multiply_adds)),
                 whole(figures.and_then(|figures| figures.peak_memory)),
                 trial.result.as_ref().err().cloned().unwrap_or_default(),

@@ -1,11 +1,12 @@
 //! A small benchmark folder made here: its truth must come back, its faults must be named.
 use crate::common::{encode, mask_png, rgb8};
-use image::ImageFormat;
+use image::{ImageBuffer, ImageFormat, Rgb};
 use normalight_core::Vec3;
 use normalight_io::{
-    IoError, ReadOptions, list_diligent_objects, read_diligent_object, read_paths, write_files,
+    IoError, ReadOptions, list_diligent_objects, pack_files, read_diligent_object, read_paths,
+    write_files,
 };
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::Path;
 
 const WIDTH: usize = 6;
@@ -94,13 +95,17 @@ fn truth_comes_back() {
     let object = read_diligent_object(&folder, None).unwrap();
     assert_eq!(object.name, "egg");
     assert_eq!(object.input.mask.count(), (WIDTH - 1) * HEIGHT);
-    assert_eq!(object.lights[3].intensity, [4.0, 5.0, 6.0]);
-    for (index, found) in object.normals.normals().iter().enumerate() {
+    assert_eq!(object.lights.unwrap()[3].intensity, [4.0, 5.0, 6.0]);
+    assert_eq!(object.normals_file.as_deref(), Some("Normal_gt.mat"));
+    for (index, found) in object.normals.unwrap().normals().iter().enumerate() {
         let expected = normal(index / WIDTH, index % WIDTH);
         assert!((*found - expected).length() < 1e-6, "{index}");
     }
     let few = read_diligent_object(&folder, Some(3)).unwrap();
-    assert_eq!((few.input.picked, few.lights.len()), (vec![0, 1, 2], 3));
+    assert_eq!(
+        (few.input.picked, few.lights.unwrap().len()),
+        (vec![0, 1, 2], 3)
+    );
 }
 
 #[test]
@@ -138,6 +143,81 @@ fn faults_are_named() {
     assert!(matches!(error, IoError::Read { name, .. } if name.ends_with("gone")));
 }
 
+/// DiLiGenT10^2 and DiLiGenT-Pi keep their normals back, LUCES has no light directions and normals of its own name.
+#[test]
+fn truth_that_is_kept_back() {
+    let place = tempfile::tempdir().unwrap();
+    let [withheld, near] = ["BALL_POM", "Bell"].map(|name| place.path().join(name));
+    for folder in [&withheld, &near] {
+        write_object(folder);
+        std::fs::remove_file(folder.join("Normal_gt.mat")).unwrap();
+        // Pictures that are all the same are refused.
+        for index in 1..=4u32 {
+            let shade = |x: u32, y: u32| Rgb([((x * index + y * 3) * 9 + 20) as u8; 3]);
+            let image = ImageBuffer::<Rgb<u8>, _>::from_fn(WIDTH as u32, HEIGHT as u32, shade);
+            let image = encode(&image.into(), ImageFormat::Png);
+            write_files(folder, &[(format!("{index:03}.png"), image)]).unwrap();
+        }
+    }
+    for name in [
+        "light_directions.txt",
+        "light_intensities.txt",
+        "filenames.txt",
+    ] {
+        std::fs::remove_file(near.join(name)).unwrap();
+    }
+    let codes =
+        |normal: Vec3| (normal.to_array()).map(|v| ((v + 1.0) / 2.0 * 65_535.0).round() as u16);
+    let normals = ImageBuffer::<Rgb<u16>, _>::from_fn(WIDTH as u32, HEIGHT as u32, |x, y| {
+        Rgb(codes(normal(y as usize, x as usize)))
+    });
+    let normals = encode(&normals.into(), ImageFormat::Png);
+    write_files(&near, &[("normals.png", normals)]).unwrap();
+    let listed = list_diligent_objects(place.path()).unwrap();
+    assert_eq!(listed, [withheld.clone(), near.clone()]);
+    let object = read_diligent_object(&withheld, None).unwrap();
+    assert!(object.normals.is_none() && object.normals_file.is_none());
+    assert_eq!(object.lights.unwrap().len(), 4);
+    let object = read_diligent_object(&near, None).unwrap();
+    assert_eq!((object.input.stack.len(), object.lights), (4, None));
+    assert_eq!(object.normals_file.as_deref(), Some("normals.png"));
+    for (index, found) in object.normals.unwrap().normals().iter().enumerate() {
+        let expected = normal(index / WIDTH, index % WIDTH);
+        assert!((*found - expected).length() < 1e-4, "{index}");
+    }
+    // A file that says that it is the truth comes first.
+    let flat = mat("Normal_gt", [5, 6, 3], |_, _, plane| {
+        f64::from(plane as u8 / 2)
+    });
+    write_files(&near, &[("Normal_gt.mat", flat)]).unwrap();
+    let object = read_diligent_object(&near, None).unwrap();
+    assert_eq!(object.normals.unwrap().normals()[7], Vec3::Z);
+}
+
+/// Estimates go to servers in such archives.
+#[test]
+fn results_are_packed() {
+    let place = tempfile::tempdir().unwrap();
+    let files = [("a.mat", vec![1u8; 300]), ("b.mat", b"other".to_vec())];
+    write_files(place.path(), &files).unwrap();
+    pack_files(place.path(), "both.zip", &["a.mat", "b.mat"]).unwrap();
+    let file = std::fs::File::open(place.path().join("both.zip")).unwrap();
+    let mut archive = zip::ZipArchive::new(file).unwrap();
+    for (name, content) in &files {
+        let mut found = Vec::new();
+        archive
+            .by_name(name)
+            .unwrap()
+            .read_to_end(&mut found)
+            .unwrap();
+        assert_eq!(&found, content);
+    }
+    let error = pack_files(place.path(), "all.zip", &["a.mat", "c.mat"]).unwrap_err();
+    assert!(matches!(error, IoError::Read { name, .. } if name.ends_with("c.mat")));
+    assert!(!place.path().join("all.zip").exists());
+    assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 3);
+}
+
 /// Whoever estimates from such a folder is told how far off the result is.
 #[test]
 fn truth_is_found_beside_photographs() {
@@ -147,10 +227,8 @@ fn truth_is_found_beside_photographs() {
     let read = || read_paths(std::slice::from_ref(&folder), &ReadOptions::default()).unwrap();
     let input = read();
     let known = input.truth.unwrap();
-    assert_eq!(
-        known.normals,
-        read_diligent_object(&folder, None).unwrap().normals
-    );
+    let object = read_diligent_object(&folder, None).unwrap();
+    assert_eq!(Some(known.normals), object.normals);
     assert_eq!(input.plan.truth.as_deref(), Some("Normal_gt.mat"));
     assert!(
         input
