@@ -16,6 +16,7 @@ use benchmark::{Source, sources};
 use facts::Evaluation;
 use normalight_evaluate::{Disturbance, Method, Photographs, Report, Table, Training, Trial};
 use normalight_io::OutputFolder;
+use normalight_search::network_drawings;
 use objects::Work;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -78,6 +79,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
             facts: evaluation.facts(),
             pictures: store.all_pictures(&trials),
             trials,
+            networks: networks(&estimation, &methods),
             trainings,
         };
         store.write(&report, bytes.clone())?;
@@ -90,6 +92,15 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<Outcome> {
     } else {
         Outcome::Done
     })
+}
+
+/// Drawings of the networks that the methods use.
+fn networks(estimation: &Estimation, methods: &[Method]) -> Vec<(String, Vec<u8>)> {
+    let architectures = estimation.estimator.architectures();
+    let used = |network: usize| methods.iter().any(|method| method.networks()[network]);
+    let used = architectures.iter().enumerate().filter(|(at, _)| used(*at));
+    used.flat_map(|(_, network)| network_drawings(network))
+        .collect()
 }
 
 /// The course of a training.

@@ -30,6 +30,8 @@ pub struct Report {
     pub trials: Vec<Trial>,
     /// Pictures of the objects.
     pub pictures: Vec<ObjectPictures>,
+    /// Drawings of the networks (title, SVG).
+    pub networks: Vec<(String, Vec<u8>)>,
     /// Trainings whose course is shown.
     pub trainings: Vec<Training>,
 }

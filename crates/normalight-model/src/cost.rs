@@ -12,7 +12,8 @@ use crate::{
     LightArchitecture, LightBody, LightGenotype, NormalArchitecture, NormalBody, NormalGenotype,
     Upsampling,
 };
-use cells::{cell_row, last_channels};
+use cells::cell_row;
+pub(crate) use cells::last_channels;
 use layers::{biased, conv, dense, transposed};
 
 /// What a network costs.

@@ -1,7 +1,7 @@
 use crate::observer::{Observer, PipelineStage, report};
 use crate::{
-    AveragedNormals, Helpers, LightOptions, LoadedLightNetwork, LoadedNormalNetwork, ModelError,
-    NoHelpers, Weights, light_cost, normal_cost,
+    Architecture, AveragedNormals, Helpers, LightOptions, LoadedLightNetwork, LoadedNormalNetwork,
+    ModelError, NoHelpers, Weights, light_cost, normal_cost,
 };
 use burn::tensor::Device;
 use normalight_core::{
@@ -46,6 +46,14 @@ impl Estimator {
         [
             light_cost(&self.light.architecture).parameters,
             normal_cost(&self.normal.architecture, 0).parameters,
+        ]
+    }
+
+    /// What both networks are.
+    pub fn architectures(&self) -> [Architecture; 2] {
+        [
+            Architecture::Light(self.light.architecture.clone()),
+            Architecture::Normal(self.normal.architecture.clone()),
         ]
     }
 

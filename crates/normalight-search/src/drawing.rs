@@ -2,9 +2,11 @@
 
 mod cell;
 mod layers;
+mod network;
 mod weights;
 
 pub(crate) use cell::cell_svg;
+pub use network::network_drawings;
 pub(crate) use weights::weights_svg;
 
 use normalight_model::Operation;

@@ -23,6 +23,7 @@ pub use budget::{Budget, Measure, OperationTime, OperationTimes};
 pub use compare::{
     CompareEvent, CompareRun, Comparison, EntryKind, EntryResult, Equal, Group, SeedResult, compare,
 };
+pub use drawing::network_drawings;
 pub use networks::{
     Candidate, CandidateResult, Goal, NetworkBody, NetworkSearchEvent, NetworkSearchRecipe,
     NetworkSearchResult, NetworkSearchRun, NetworkSearchSettings, NetworkSpace, RoundPart, Rung,

@@ -71,6 +71,7 @@ pub(super) fn page(report: &Report, tables: &[Table]) -> Result<String, Evaluate
                         (drawn(chart, "Errors that were found against those that were expected; the figures stand in the table above"))
                     }
                     (grid(&disturbed(tables)))
+                    @if !report.networks.is_empty() { (networks(&report.networks)) }
                     (grid(&trainings::grid(&report.trainings)))
                     @if let Some(chart) = &hours {
                         (drawn(chart, "Validation errors of the trainings over their hours; the last figures stand in the table above"))
@@ -135,6 +136,21 @@ fn grid(grid: &Grid) -> Markup {
                             }
                         }
                     }
+                }
+            }
+        }
+    }
+}
+
+/// Drawings of the networks.
+fn networks(drawings: &[(String, Vec<u8>)]) -> Markup {
+    html! {
+        section {
+            h2 { "Networks" }
+            p { "Each box is a layer: as high as its pictures are, as wide as they have channels, whose number stands above it." }
+            @for (title, svg) in drawings {
+                div.scroll tabindex="0" role="region" aria-label=(title) {
+                    img.network src=(data("image/svg+xml", svg)) alt=(title);
                 }
             }
         }

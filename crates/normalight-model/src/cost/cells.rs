@@ -5,7 +5,7 @@ use crate::cell_site::CellSite;
 use crate::{Cell, Operation};
 
 /// Channels that a row of cells leaves.
-pub(super) fn last_channels(row: &[CellSite], cells: &[&Cell]) -> usize {
+pub(crate) fn last_channels(row: &[CellSite], cells: &[&Cell]) -> usize {
     let Some(last) = row.last() else { return 0 };
     let nodes = cells.get(last.cell).map_or(0, |cell| cell.nodes.len());
     nodes * last.width
