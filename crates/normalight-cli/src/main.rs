@@ -12,6 +12,7 @@ mod evaluate;
 mod exit;
 mod export;
 mod interrupt;
+mod memory;
 mod mesh;
 mod monitor;
 mod output_file;

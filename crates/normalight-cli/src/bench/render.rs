@@ -1,5 +1,6 @@
 use crate::Outcome;
 use crate::args::BenchRenderArgs;
+use crate::memory::peak_memory;
 use crate::{interrupt, scenes};
 use anyhow::Result;
 use normalight_synth::Renderer;
@@ -62,7 +63,7 @@ pub(crate) fn run(args: &BenchRenderArgs) -> Result<Outcome> {
             return Ok(Outcome::Interrupted);
         }
     }
-    report.peak_memory = super::peak_memory();
+    report.peak_memory = peak_memory();
     super::print_report(&report, args.json, to_text)
 }
 

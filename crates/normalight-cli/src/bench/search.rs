@@ -1,6 +1,7 @@
 //! `normalight bench search`: how fast a relaxed network is searched.
 use super::median_seconds;
 use crate::args::BenchSearchArgs;
+use crate::memory::peak_memory;
 use crate::{Outcome, interrupt, search_recipe};
 use anyhow::{Context, Result};
 use burn::tensor::Device;
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &BenchSearchArgs) -> Result<Outcome> {
     let report = Report {
         version: env!("CARGO_PKG_VERSION"),
         cases,
-        peak_memory: super::peak_memory(),
+        peak_memory: peak_memory(),
     };
     super::print_report(&report, args.json, to_text)
 }

@@ -6,6 +6,7 @@ use super::median_seconds;
 use crate::Outcome;
 use crate::args::BenchTrainArgs;
 use crate::interrupt;
+use crate::memory::peak_memory;
 use anyhow::{Context, Result};
 use burn::tensor::{Device, Tensor};
 use networks::{Case, Conditions};
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &BenchTrainArgs) -> Result<Outcome> {
             return Ok(Outcome::Interrupted);
         }
     }
-    report.peak_memory = super::peak_memory();
+    report.peak_memory = peak_memory();
     super::print_report(&report, args.json, to_text)
 }
 

@@ -2,8 +2,8 @@
 use super::benchmark::Source;
 use super::store::Store;
 use crate::args::EvaluateArgs;
-use crate::bench::{forget_peak_memory, peak_memory};
 use crate::interrupt;
+use crate::memory::{forget_peak_memory, peak_memory};
 use crate::progress::ProgressObserver;
 use crate::settings::{Estimation, describe};
 use crate::terminal::note;
