@@ -2,10 +2,9 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
 import { complaints } from "./support/axe.js";
 import { withReport } from "./support/files.js";
-import { QUIET } from "./support/page.js";
+import { launch } from "./support/page.js";
 
 /** Wide and narrow, light and dark. */
 const LOOKS = /** @type {const} */ ([
@@ -14,9 +13,7 @@ const LOOKS = /** @type {const} */ ([
 ]);
 
 test("the report of an evaluation is one page for everybody, and its tables sort", async () => {
-  const executablePath = process.env.NORMALIGHT_CHROMIUM;
-  assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
-  const browser = await chromium.launch({ executablePath, args: QUIET });
+  const browser = await launch();
   try {
     await withReport(async (folder) => {
       for (const look of LOOKS) {

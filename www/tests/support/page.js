@@ -19,6 +19,13 @@ export const QUIET = [
   "--disable-sync",
 ];
 
+/** Starts the browser of the tests, quiet but for these arguments. @param {string[]} args */
+export async function launch(...args) {
+  const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
+  assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
+  return await chromium.launch({ executablePath, args: [...QUIET, ...args] });
+}
+
 /** Serves the built page. */
 export async function serveBuild() {
   const server = await preview({
@@ -72,11 +79,9 @@ export class Page {
    * `offline`: with its service worker, which answers before a test's routes do
    */
   static async open({ webgpu, offline = false, address, args = [], locale = "en-US" }) {
-    const { NORMALIGHT_CHROMIUM: executablePath } = process.env;
-    assert.ok(executablePath, "NORMALIGHT_CHROMIUM names no browser");
     const server = address === undefined ? await serveBuild() : undefined;
     const devices = webgpu ? ["--enable-unsafe-webgpu"] : [];
-    const browser = await chromium.launch({ executablePath, args: [...QUIET, ...devices, ...args] });
+    const browser = await launch(...devices, ...args);
     const context = await browser.newContext({
       viewport: { width: 1280, height: 900 },
       serviceWorkers: offline ? "allow" : "block",
